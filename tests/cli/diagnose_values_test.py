@@ -78,6 +78,14 @@ class Values(harness.Case):
         self.assertRegex(said["unexplained"]["sentence"], r"LEN of \S*d1_L.dmi strays by itself, by (1[89]|2[01]) um")
         self.assertIn("Check reference", said["otherwise"])
 
+    def test_all_characteristics_that_stray_are_told(self):
+        """Both blocks stood on dirt where they stood upright, in three runs: neither strays by itself."""
+        def dirty(row):
+            return row | {"value": repr(float(row["value"]) + 0.01)} if "z1_" in row["program"] else row
+        said = self.diagnosis(self.changed(self.recorded(runs=3, lengths=BOTH), dirty))
+        self.assertRegex(said["unexplained"]["sentence"], r"LEN of \S*z1_S.dmi strays, by .* LEN of \S*z1_L.dmi strays too\.")
+        self.assertRegex(said["otherwise"], r"LEN of \S*z1_S.dmi and of LEN of \S*z1_L.dmi, and measure them again")
+
     def test_an_effect_is_found_with_either_sign(self):
         """A position is an absolute value: what makes it is no linear function of the size of an effect."""
         program, machine = harness.ROOT / "examples/programs/prismatic_part.dmi", harness.ROOT / "examples/iso10360/portal-2009.json"

@@ -12,7 +12,8 @@ namespace {
 
 constexpr int kHalf = 1000, kPerValue = 10, kMostValues = 500;
 
-/// "LX2 of part.dmi"; the evaluation too, where it is not the first.
+}  // namespace
+
 std::vector<std::string> labels_of(const ValueCase& c) {
   std::vector<std::string> out;
   for (std::size_t k = 0; k < c.ensemble.values.size(); ++k) {
@@ -22,8 +23,6 @@ std::vector<std::string> labels_of(const ValueCase& c) {
   }
   return out;
 }
-
-}  // namespace
 
 int machines_for(Eigen::Index values) { return 2 * (kHalf + kPerValue * static_cast<int>(values)); }
 bool enough(const Matrix& simulated) { return simulated.rows() / 2 >= simulated.cols() + 2; }

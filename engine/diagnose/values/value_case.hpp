@@ -46,6 +46,9 @@ ValueReference reference_of(const ValueCase&);
 /// As the recording calls the program of a value, else the name of its file.
 std::string program_of(const ValueCase&, std::size_t value);
 
+/// What each value is called, repeats alike: "LX2 of part.dmi"; the evaluation too, where it is not the first.
+std::vector<std::string> labels_of(const ValueCase&);
+
 /// The search once more, beside the errors that a machine has.
 struct Closer {
   ValueSearch search;

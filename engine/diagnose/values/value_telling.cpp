@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 #include "engine/diagnose/findings/belief.hpp"
 #include "engine/diagnose/findings/carried.hpp"
 #include "engine/diagnose/findings/locate.hpp"
 #include "engine/diagnose/findings/members.hpp"
+#include "engine/diagnose/values/value_signature.hpp"
 #include "engine/diagnose/words.hpp"
 #include "engine/math/normal.hpp"
 #include "engine/run/recorded/logged.hpp"
@@ -66,6 +68,25 @@ std::string to_tell_apart(const Explanations& all, const Finding& f) {
   return out;
 }
 
+/// The characteristics beside one that stray in all their repeats by more than chance lets any of so many: the largest p
+/// of the repeats counts.
+std::vector<std::string> others_that_stray(const ValueCase& c, const std::string& which,
+                                           const std::vector<JudgedValue>& values) {
+  constexpr double kByChance = 0.05;
+  const std::vector<std::string> labels = labels_of(c);
+  std::map<std::string, double> largest_p;
+  for (std::size_t k = 0; k < labels.size(); ++k) largest_p[labels[k]] = std::max(largest_p[labels[k]], values[k].p);
+  std::vector<std::string> out;
+  for (const auto& [label, p] : largest_p)
+    if (label != which && p * double(largest_p.size()) < kByChance) out.push_back(label);
+  return out;
+}
+
+/// "A strays", "A and B stray"
+std::string stray_in_words(const std::vector<std::string>& labels) {
+  return fmt::format("{} {}", fmt::join(labels, " and "), labels.size() == 1 ? "strays" : "stray");
+}
+
 }  // namespace
 
 void tell_name(const ValueCase& c, const Closer& closer, const Finding& f, double adequacy, Diagnosis& out) {
@@ -111,12 +132,17 @@ void tell_pattern(const ValueCase& c, const Closer& closer, const Finding& f, Di
   out.verdict = Verdict::unexplained;
   if (e.shape == kOneCharacteristic) {
     const std::string& which = closer.variant(f).told;
+    std::vector<std::string> stray = others_that_stray(c, which, out.values);
     Eigen::Index at = 0;
     const double most = all.cwiseAbs().maxCoeff(&at);
     out.unexplained->sentence = fmt::format(
-        "No effect of the catalogue explains it: {} strays by itself, by {} {}, and what the other values say of the machine does not explain it.",
-        which, two_digits(most), c.ensemble.values[static_cast<std::size_t>(at)].angle ? "urad" : "um");
-    out.otherwise = fmt::format("Check reference, U and program of {}, and measure it again.", which);
+        "No effect of the catalogue explains it: {} strays{}, by {} {}, and what the other values say of the machine does not explain it.{}",
+        which, stray.empty() ? " by itself" : "", two_digits(most),
+        c.ensemble.values[static_cast<std::size_t>(at)].angle ? "urad" : "um",
+        stray.empty() ? "" : fmt::format(" {} too.", stray_in_words(stray)));
+    stray.insert(stray.begin(), which);
+    out.otherwise = fmt::format("Check reference, U and program of {}, and measure {} again.",
+                                fmt::join(stray, " and of "), stray.size() == 1 ? "it" : "them");
     return;
   }
   out.unexplained->sentence = e.shape == "single values"
