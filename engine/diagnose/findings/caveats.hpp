@@ -37,6 +37,9 @@ inline constexpr const char* kSamePhase =
     " Wherever touches have the same direction, the scale was at the same phase: a pattern over direction would look the "
     "same. Repeat it with the part moved by a third of the period.";
 
+inline constexpr const char* kUnproven =
+    " It is believed by half at most, because touches that the model had not seen are not predicted better beyond doubt.";
+
 /// Whether what displaces touches by `largest_um` at most may be the rounding of positions: by less than their step, where
 /// that counts for more than the noise of the probe. One point touched again is rounded alike each time.
 bool may_be_rounding(const Case&, const std::optional<double>& largest_um);

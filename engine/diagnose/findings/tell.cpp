@@ -95,8 +95,9 @@ void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
     const bool same_phase = is_same_phase(c, f);
     const bool large_errors = !out.baseline.known && out.baseline.geometry_scale >= kLargeErrors;
     const bool doubted = something_else || large_errors || of_several_sizes(f.sizes) || rounding || same_phase ||
-        effect.only_spread || !judged(c, f) || !possible || !predicts_better(out.improvement);
-    e.probability = believed(f.probability, doubted);
+        effect.only_spread || !judged(c, f) || !possible;
+    const bool unproven = !predicts_better(out.improvement);
+    e.probability = believed(f.probability, doubted || unproven);
     if (f.set.size() > 1) e.by_member = members_of(c, result, k, e);
     std::vector<std::string_view> titles;
     for (const int m : f.set) titles.push_back(c.explanations.list[m].effect->title);
@@ -105,6 +106,7 @@ void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
         pattern_beside(c, f) + not_of_one_size(f) +
         (large_errors ? beside_large_errors(out.baseline.geometry_scale) : "") + (same_phase ? kSamePhase : "") +
         much_like_it(effect);
+    if (unproven && !doubted && f.probability > kDoubted) e.sentence += unless_said(out.effects, kUnproven);
     for (const std::string& note : {whose_coordinates(c, effect), whose_direction(effect), clock})
       e.sentence += unless_said(out.effects, note);
     if (change.in_each_file) e.sentence += " Its clock begins anew in each file.";

@@ -139,23 +139,24 @@ std::string to_follow_what_is_left(const Case& c, const SearchResult& result, un
 }
 
 /// What would show whether a name that stands alone is right, where it is not told for certain.
-std::string to_check_a_name(const Case& c, const SearchResult& result) {
-  for (const Finding& f : result.findings) {
+std::string to_check_a_name(const Case& c, const SearchResult& result, const Diagnosis& told) {
+  for (std::size_t k = 0; k < result.findings.size(); ++k) {
+    const Finding& f = result.findings[k];
     if (of_several_sizes(f.sizes)) return to_follow_a_pattern(c, f.sizes->factor);
-    if (f.set.size() == 1 && f.probability < kTold)
+    if (f.set.size() == 1 && told.effects.at(k).probability < kTold)
       return to_follow_a_pattern(c, shown_in(c, c.explanations.list[f.explanation]));
   }
   return "";
 }
 
 /// What to do beside a measurement of the menu, or where none is worth its time.
-std::string besides_sizes(const Case& c, const SearchResult& result, const std::vector<NextMeasurement>& next) {
-  if (!next.empty()) return to_follow_what_is_left(c, result, 0);
+std::string besides_sizes(const Case& c, const SearchResult& result, const Diagnosis& told) {
+  if (!told.next_measurement.empty()) return to_follow_what_is_left(c, result, 0);
   if (result.other) return to_follow_a_pattern(c, c.explanations.list[result.other->explanation].factor);
   std::vector<std::string> sentences = to_log(c, result);
   if (std::string left = to_follow_what_is_left(c, result, missed_by_names(c, result)); !left.empty())
     sentences.push_back(std::move(left));
-  if (std::string check = to_check_a_name(c, result); !check.empty()) sentences.push_back(std::move(check));
+  if (std::string check = to_check_a_name(c, result, told); !check.empty()) sentences.push_back(std::move(check));
   const std::vector<int> rivals = question_of(result).rivals;
   if (rivals.size() >= 2)
     sentences.emplace_back(
@@ -239,12 +240,9 @@ std::string to_part_runs(const Case& c, const SearchResult& result) {
 }  // namespace
 
 std::string otherwise(const Case& c, const SearchResult& result, const Diagnosis& told) {
-  std::vector<std::string> sentences = {to_know_qualifications(c, result),
-                                        to_part_runs(c, result),
-                                        to_know_sizes(c, result),
-                                        to_know_the_material(c, result),
-                                        besides_sizes(c, result, told.next_measurement),
-                                        to_record_digits(c, told)};
+  std::vector<std::string> sentences = {to_know_qualifications(c, result), to_part_runs(c, result),
+                                        to_know_sizes(c, result),          to_know_the_material(c, result),
+                                        besides_sizes(c, result, told),    to_record_digits(c, told)};
   std::erase(sentences, "");
   return fmt::format("{}", fmt::join(sentences, " "));
 }

@@ -5,7 +5,7 @@
 
 namespace abbe::diagnose {
 
-/// Sentences; empty where what is proposed is enough. `told`: the names, and what is proposed.
+/// Sentences; empty where what is proposed is enough. `told`: first the findings in their order, and what is proposed.
 std::string otherwise(const Case&, const SearchResult&, const Diagnosis& told);
 
 }  // namespace abbe::diagnose

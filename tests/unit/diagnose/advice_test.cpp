@@ -24,10 +24,21 @@ struct LeavesMore : Planted {
     c.explanations.unjudged.push_back({find_effect(effect), missing, logged ? missing : 0});
     if (!logged) c.touches.known &= ~missing;
   }
-  std::string says() const { return otherwise(c, result, {}); }
+  std::string says(double believed = 1) const {
+    Diagnosis told;
+    told.effects.push_back({{"probe.tip_radius"}, believed, {}, {}});
+    return otherwise(c, result, told);
+  }
 };
 
 }  // namespace
+
+TEST_CASE("a name that stands alone and is doubted is followed by what would show whether it is right") {
+  LeavesMore p;
+  p.result.adequacy = 1;
+  CHECK(p.says() == "");
+  CHECK(p.says(kDoubted).starts_with("Repeat with the part turned and with another stylus ball"));
+}
 
 TEST_CASE("of all that was not logged three columns are asked for, each once") {
   LeavesMore p;

@@ -96,6 +96,19 @@ TEST_CASE("what no machine file may carry is not in it") {
   CHECK(rounded.out.model_effects.empty());
 }
 
+TEST_CASE("why a name is believed by half is said where nothing else says it") {
+  const auto says_so = [](auto change) {
+    Told t;
+    change(t);
+    t.tell();
+    return t.says("not predicted better beyond doubt");
+  };
+  CHECK_FALSE(says_so([](Told&) {}));
+  CHECK(says_so([](Told& t) { t.out.improvement->se = 21; }));
+  CHECK(says_so([](Told& t) { t.out.improvement.reset(); }));
+  CHECK_FALSE(says_so([](Told& t) { t.out.improvement->se = 21, t.result.adequacy = kInadequate / 2; }));
+}
+
 TEST_CASE("a change between runs in one placement takes for granted that the part lay still") {
   for (const bool same_setup : {true, false}) {
     Planted p(2);
