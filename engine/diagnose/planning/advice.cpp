@@ -20,6 +20,10 @@ namespace abbe::diagnose {
 
 namespace {
 
+/// The share of what can be gained over guessing below which what tells more is to be done first: of two, a probability of
+/// 0.6.
+constexpr double kWorthARound = 0.2;
+
 /// Whether every feature was measured at one stretch: what differs between them may be the time then.
 bool one_after_the_other(const Case& c) {
   std::set<int> done;
@@ -149,9 +153,17 @@ std::string to_check_a_name(const Case& c, const SearchResult& result, const Dia
   return "";
 }
 
-/// What to do beside a measurement of the menu, or where none is worth its time.
+/// Whether a measurement of the menu tells the rivals apart clearly better than guessing.
+bool worth_a_round(const std::vector<NextMeasurement>& next) {
+  return std::any_of(next.begin(), next.end(), [](const NextMeasurement& n) {
+    const double guess = 1 / double(n.separates.size());
+    return n.expected_probability > guess + kWorthARound * (1 - guess);
+  });
+}
+
+/// What to do beside a measurement of the menu, or where there is none that is worth its time.
 std::string besides_sizes(const Case& c, const SearchResult& result, const Diagnosis& told) {
-  if (!told.next_measurement.empty()) return to_follow_what_is_left(c, result, 0);
+  if (worth_a_round(told.next_measurement)) return to_follow_what_is_left(c, result, 0);
   if (result.other) return to_follow_a_pattern(c, c.explanations.list[result.other->explanation].factor);
   std::vector<std::string> sentences = to_log(c, result);
   if (std::string left = to_follow_what_is_left(c, result, missed_by_names(c, result)); !left.empty())
@@ -160,7 +172,9 @@ std::string besides_sizes(const Case& c, const SearchResult& result, const Diagn
   const std::vector<int> rivals = question_of(result).rivals;
   if (rivals.size() >= 2)
     sentences.emplace_back(
-        "No other run of these touches would tell them apart much better than guessing. What would:");
+        told.next_measurement.empty()
+            ? "No other run of these touches would tell them apart much better than guessing. What would:"
+            : "What is proposed here tells them apart only a little better than guessing. Do first what tells more:");
   for (std::size_t k = 0; rivals.size() >= 2 && k < rivals.size(); ++k) {
     const Explanation& e = c.explanations.list[rivals[k]];
     sentences.push_back(fmt::format("{}: {}.", e.name, e.effect->separate));

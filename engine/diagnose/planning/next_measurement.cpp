@@ -26,12 +26,9 @@ constexpr std::size_t kShown = 3, kPaired = 6;
 constexpr double kRound_min = 60;
 /// Expected probability of the truth from which on a measurement counts as deciding.
 constexpr double kDecides = 0.95;
-/// What it must be above guessing, or a plan proposes no measurement; and what a pair of changes must add, or
+/// What it must be above guessing, or the measurement is no proposal; and what a pair of changes must add, or
 /// one of them is enough.
 constexpr double kAboveChance = 0.05;
-/// The share of what can be gained over guessing that a second recording must bring to be worth its time: of two, a
-/// probability of 0.6. Whoever has a recording can do more than touch the same again (advice.cpp says what).
-constexpr double kWorthARound = 0.2;
 /// Expected probabilities are no more exact than this.
 constexpr double kAlike = 0.01;
 /// Signal-to-noise that a plan without data reckons with.
@@ -270,19 +267,19 @@ class Judge {
   std::vector<Scored> list_;  ///< the best first
 };
 
-/// The best changes for a question, the first as a program. `planned`: nothing was measured yet.
+/// The best changes for a question, the first as a program.
 std::vector<NextMeasurement> best_changes(const Case& c, const Hyperparameters& hyper, const Question& question,
-                                          std::size_t most, bool planned) {
+                                          std::size_t most) {
   if (question.rivals.size() < 2) return {};
-  const double least = planned ? kAboveChance : kWorthARound * (1 - 1 / double(question.rivals.size()));
   Judge judge(c, hyper, question);
   judge.add(changes_for(c));
   if (!judge.list().empty() && judge.list().front().measurement.expected_probability < kDecides) judge.add_pairs();
   std::vector<NextMeasurement> out;
-  for (const Scored& s : judge.list()) {
-    if (s.gain < least || out.size() == most) continue;
+  for (std::size_t k = 0; k < std::min(most, judge.list().size()); ++k) {
+    const Scored& s = judge.list()[k];
+    if (s.gain < kAboveChance) break;
     out.push_back(s.measurement);
-    if (out.size() == 1) out.back().program = dmis_program(c, s.longer, s.change);
+    if (k == 0) out.back().program = dmis_program(c, s.longer, s.change);
   }
   return out;
 }
@@ -291,10 +288,10 @@ std::vector<NextMeasurement> best_changes(const Case& c, const Hyperparameters& 
 
 std::vector<NextMeasurement> next_measurements(const Case& c, const SearchResult* result,
                                                const std::vector<Detectable>& detectable) {
-  if (result) return best_changes(c, result->hyper_of_likelier, question_of(*result), kShown, /*planned=*/false);
+  if (result) return best_changes(c, result->hyper_of_likelier, question_of(*result), kShown);
   std::vector<NextMeasurement> out;
   for (const Question& question : questions_of(c, detectable, kShown))
-    for (NextMeasurement& best : best_changes(c, c.hyper, question, 1, /*planned=*/true)) {
+    for (NextMeasurement& best : best_changes(c, c.hyper, question, 1)) {
       if (!out.empty()) best.program.clear();  // one program at a time: the first
       out.push_back(std::move(best));
     }
