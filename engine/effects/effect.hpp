@@ -117,7 +117,7 @@ enum class Sought {
   around_listed,  ///< `tried`, and what lies between
   wavelength,     ///< likewise, but none longer than two parts as large as what was touched: that is no form, mm
   signal_period,  ///< those of `tried` that the readings of a recording resolve, um
-  height,         ///< of a plane of the part, from its middle to some way beyond what was touched, mm
+  height,         ///< of a plane in the part, whose touches may span no more than a third of its height, mm
   moment,         ///< between two touches
   period,         ///< whole half cycles in the duration of the recording
   time_constant,  ///< shares of that duration

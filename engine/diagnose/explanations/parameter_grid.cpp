@@ -68,25 +68,30 @@ std::vector<double> codes(const EffectParameter& p) {
 
 std::vector<double> listed(const EffectParameter& p) { return {p.tried.begin(), p.tried.end()}; }
 
-/// The largest side of what was touched, on the part.
-double extent_mm(const RecordedTouches& t) {
+/// The sides of what was touched, along the axes of the part.
+Vec3 sides_mm(const RecordedTouches& t) {
   Vec3 low = t.touches.front().scene.on_part, high = low;
   for (const RecordedTouch& touch : t.touches)
     for (int k = 0; k < 3; ++k)
       low[k] = std::min(low[k], touch.scene.on_part[k]), high[k] = std::max(high[k], touch.scene.on_part[k]);
-  return std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+  return high - low;
 }
 
-/// Shares of the part's largest side.
+/// Shares of the height that touches span, of a part that may be three times as high. Of a gauge, which is far longer than
+/// high, the middle alone: elsewhere a bow would be no more than a length that is wrong.
 std::vector<double> heights(const RecordedTouches& t) {
+  constexpr double kSlender = 0.05;
+  const Vec3 sides = sides_mm(t);
+  if (sides.z < kSlender * std::max(sides.x, sides.y)) return {0};
   std::vector<double> list;
-  for (const double share : {-0.15, -0.05, 0.0, 0.05, 0.15}) list.push_back(share * extent_mm(t));
+  for (const double share : {-1.0, -0.5, 0.0, 0.5, 1.0}) list.push_back(share * sides.z);
   return list;
 }
 
 /// One at least. Less than half a wave is a size, or an angle of the part.
 std::vector<double> wavelengths(const EffectParameter& p, const RecordedTouches& t) {
-  const double extent = extent_mm(t);
+  const Vec3 sides = sides_mm(t);
+  const double extent = std::max({sides.x, sides.y, sides.z});
   std::vector<double> list{p.tried.front()};
   for (const double length : p.tried.subspan(1))
     if (length <= 2 * extent) list.push_back(length);
