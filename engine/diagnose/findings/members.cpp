@@ -24,11 +24,26 @@ double weight_of_all(const Explanations& all, const Finding& f) {
   return sum;
 }
 
+/// Whether the touches show something of it, and of a displacement more than a hundredth: else what little they show is
+/// magnified by a lever that is too short.
+bool shows(const Effect& effect, const FoundSize& size) {
+  constexpr double kNothing_um = 1e-3, kShort = 100;
+  const auto magnified = [&](const DiagnosedParameter& found) {
+    const auto p = std::find_if(effect.parameters.begin(), effect.parameters.end(),
+                                [&](const EffectParameter& of) { return of.name == found.name; });
+    return p != effect.parameters.end() && p->linear && p->unit == "um" &&
+        std::abs(found.value) > kShort * size.largest_um;
+  };
+  return size.largest_um > kNothing_um && std::none_of(size.parameters.begin(), size.parameters.end(), magnified);
+}
+
 /// Whether a machine can have what was found of a member: where its file has the effect already, both together.
 bool possible(const Case& c, const SearchResult& result, std::size_t k, int member) {
   const Finding& f = result.findings[k];
-  const std::vector<DiagnosedParameter> found = estimate_size(c, result, k, member).parameters;
+  const FoundSize size = estimate_size(c, result, k, member);
+  const std::vector<DiagnosedParameter>& found = size.parameters;
   const Effect& effect = *c.explanations.list[member].effect;
+  if (!shows(effect, size)) return false;
   if (c.explanations.variants[f.variant_of(member)].change.gone()) return all_plausible(found);
   const auto known = known_effect(*c.machine, effect, setting_from(std::string(effect.name), found));
   if (!known) return all_plausible(found);

@@ -131,9 +131,29 @@ TEST_CASE("what can be judged stands first, the likeliest in front") {
   CHECK(hardly.finding().set == std::vector<int>{0, 1});
 }
 
+TEST_CASE("a member that does nothing to the touches is none of a set") {
+  Planted p(4);
+  p.plant("probe.tip_radius", {1.2, 0});
+  p.c.explanations = named_explanations(p.c.touches, p.c.rows, {"probe.tip_radius", "machine.squareness"});
+  p.c.machine = &p.machine;
+  for (const int k : p.c.explanations.list[1].variants)
+    p.c.explanations.variants[k].signature.setZero();  // it has no arm here
+  Finding f;
+  f.evidence = EvidenceSearch(p.c.model, p.c.hyper, p.c.explanations).evidence();
+  f.evidence.log_bayes = {20 + std::log(0.6), 20 + std::log(0.4)};
+  f.set = {0, 1};
+  f.explanation = 0, f.probability = 0.9;
+  for (const int k : f.set) f.best.push_back(best_variant(p.c.explanations, k, f.evidence));
+  f.variant = f.best[0];
+  p.result.findings = {f};
+  drop_impossible_members(p.c, p.result);
+  CHECK(p.result.findings.front().set == std::vector<int>{0});
+}
+
 TEST_CASE("a member that would need an impossible size is struck out, and what was believed of it is gone") {
   Planted p(4);
-  p.plant("probe.stylus_bending", {-3, 0});  // a force that pulls
+  p.plant("probe.stylus_bending", {-1, 0});  // a force that pulls
+  p.plant("machine.squareness", {600, 0});
   p.c.explanations = named_explanations(p.c.touches, p.c.rows, {"probe.stylus_bending", "machine.squareness"});
   p.c.machine = &p.machine;
   Finding f;
