@@ -1,10 +1,12 @@
 #include "engine/diagnose/findings/caveats.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "engine/diagnose/words.hpp"
 #include "engine/effects/direction.hpp"
 #include "engine/run/recorded/from_program.hpp"
 
@@ -48,6 +50,35 @@ std::string whose_direction(const Effect& effect) {
                                          [](const EffectParameter& p) { return is_direction(p); });
   if (effect.stage != Stage::probe || !has_direction) return "";
   return " Its direction is that of the probe body, which turns with the head: z is along the body, towards the head.";
+}
+
+std::string what_does_nearly_the_same(const Effect& effect, const Variant& variant,
+                                      const std::vector<DiagnosedParameter>& told) {
+  constexpr double kNearly = 0.2;  // of the column
+  const auto told_of = [&](const Column& column) {
+    return std::find_if(told.begin(), told.end(), [&](const DiagnosedParameter& p) {
+      return column.parameter >= 0 && p.name == effect.parameters[column.parameter].name;
+    });
+  };
+  const auto is_told = [&](const Column& column) { return told_of(column) != told.end(); };
+  if (variant.joined || std::count_if(variant.columns.begin(), variant.columns.end(), is_told) != 1) return "";
+  const auto own = std::find_if(variant.columns.begin(), variant.columns.end(), is_told);
+  const Vector does = variant.signature.col(own - variant.columns.begin());
+  std::vector<std::string> others;
+  for (std::size_t k = 0; k < variant.columns.size(); ++k) {
+    const Vector other = variant.signature.col(static_cast<Eigen::Index>(k));
+    const double times = does.dot(other) / other.squaredNorm();
+    if (is_told(variant.columns[k]) || (does - times * other).norm() > kNearly * does.norm()) continue;
+    const EffectParameter& p = effect.parameters[variant.columns[k].parameter];
+    DiagnosedParameter instead = *told_of(*own);
+    const double unit = times * variant.columns[k].unit / own->unit;
+    instead.name = p.name, instead.unit = p.unit;
+    instead.value *= unit, instead.u *= std::abs(unit);
+    const auto [low, high] = std::minmax({instead.low * unit, instead.high * unit});
+    instead.low = low, instead.high = high;
+    others.push_back(with_uncertainty(instead));
+  }
+  return others.empty() ? "" : fmt::format(" Here {} would do nearly the same.", fmt::join(others, " or "));
 }
 
 std::string whose_clock(const Case& c, const Effect& effect) {

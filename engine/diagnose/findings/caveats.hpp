@@ -27,11 +27,20 @@ std::string much_like_it(const Effect&);
 
 /// In which frame the direction of an effect of the probe is told: those of other effects are in the machine's.
 std::string whose_direction(const Effect&);
+
+/// What another parameter of the effect would have to be to do nearly the same to these touches as the only one that is
+/// told: at one temperature a wrong coefficient does what a wrong sensor does.
+std::string what_does_nearly_the_same(const Effect&, const Variant&, const std::vector<DiagnosedParameter>& told);
+
 /// Without a clock, moments and rates are those of the motion model.
 std::string whose_clock(const Case&, const Effect&);
 
 /// The note, or "" where one of these has it already: an answer says once what holds for several of its effects.
 std::string unless_said(const std::vector<DiagnosedEffect>&, const std::string& note);
+
+inline constexpr const char* kNearlyCancelled =
+    " What it does is nearly undone by what else was found: two large faults that cancel each other are seldom, and one of "
+    "another kind may do what is left of them. Mend neither before a measurement shows it by itself.";
 
 inline constexpr const char* kSamePhase =
     " Wherever touches have the same direction, the scale was at the same phase: a pattern over direction would look the "

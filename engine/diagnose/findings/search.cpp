@@ -12,6 +12,7 @@
 #include "engine/diagnose/explanations/patterns/functions.hpp"
 #include "engine/diagnose/explanations/patterns/patterns.hpp"
 #include "engine/diagnose/explanations/refine.hpp"
+#include "engine/diagnose/findings/displacements.hpp"
 #include "engine/diagnose/findings/members.hpp"
 #include "engine/diagnose/model/precision.hpp"
 #include "engine/diagnose/model/restricted_likelihood.hpp"
@@ -415,18 +416,8 @@ SearchResult search(Case& c, EvidenceSearch& first) {
 
 void put_largest_first(const Case& c, std::vector<Finding>& findings) {
   if (findings.size() < 2) return;
-  const LinearModel all = with_free(c.model, signatures_of(c, findings));
-  const Vector weight = c.model.noise_um.cwiseInverse();
-  const Matrix columns = weight.asDiagonal() * all.free;
-  const Vector size = least_squares(columns, Vector(weight.cwiseProduct(c.model.y)));
   std::vector<std::pair<double, std::size_t>> order;
-  Eigen::Index first = c.model.free.cols();
-  for (std::size_t k = 0; k < findings.size(); ++k) {
-    const Matrix& signature = c.explanations.variants[findings[k].variant].signature;
-    const Vector displacement = signature * size.segment(first, signature.cols());
-    order.emplace_back(-beside_free(c.model, displacement).norm(), k);
-    first += signature.cols();
-  }
+  for (const Vector& d : displacements(c, signatures_of(c, findings))) order.emplace_back(-d.norm(), order.size());
   std::sort(order.begin(), order.end());
   const std::vector<Finding> found = std::exchange(findings, {});
   for (const auto& [minus_um, k] : order) findings.push_back(found[k]);

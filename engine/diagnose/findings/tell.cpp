@@ -12,6 +12,7 @@
 #include "engine/diagnose/findings/belief.hpp"
 #include "engine/diagnose/findings/carried.hpp"
 #include "engine/diagnose/findings/caveats.hpp"
+#include "engine/diagnose/findings/displacements.hpp"
 #include "engine/diagnose/findings/empirical.hpp"
 #include "engine/diagnose/findings/improvement.hpp"
 #include "engine/diagnose/findings/locate.hpp"
@@ -66,6 +67,7 @@ bool is_same_phase(const Case& c, const Finding& f) {
 }  // namespace
 
 void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
+  const std::vector<Vector> moved = displacements(c, signatures_of(c, result));
   for (std::size_t k = 0; k < result.findings.size(); ++k) {
     const Finding& f = result.findings[k];
     DiagnosedEffect e;
@@ -93,9 +95,10 @@ void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
                                                         : carry(*c.machine, effect, e.parameters, out);
     const bool possible = all_plausible(e.parameters);
     const bool same_phase = is_same_phase(c, f);
+    const bool cancelled = nearly_cancelled(moved, k);
     const bool large_errors = !out.baseline.known && out.baseline.geometry_scale >= kLargeErrors;
     const bool doubted = something_else || large_errors || of_several_sizes(f.sizes) || rounding || same_phase ||
-        effect.only_spread || !judged(c, f) || !possible;
+        cancelled || effect.only_spread || !judged(c, f) || !possible;
     const bool unproven = !predicts_better(out.improvement);
     e.probability = believed(f.probability, doubted || unproven);
     if (f.set.size() > 1) e.by_member = members_of(c, result, k, e);
@@ -105,7 +108,8 @@ void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
     e.sentence = explanation_sentence(titles, e.parameters, "this recording", change, unsure, /*beside=*/k > 0) +
         pattern_beside(c, f) + not_of_one_size(f) +
         (large_errors ? beside_large_errors(out.baseline.geometry_scale) : "") + (same_phase ? kSamePhase : "") +
-        much_like_it(effect);
+        (cancelled ? kNearlyCancelled : "") + much_like_it(effect) +
+        what_does_nearly_the_same(effect, c.explanations.variants[f.variant], e.parameters);
     if (unproven && !doubted && f.probability > kDoubted) e.sentence += unless_said(out.effects, kUnproven);
     for (const std::string& note : {whose_coordinates(c, effect), whose_direction(effect), clock})
       e.sentence += unless_said(out.effects, note);

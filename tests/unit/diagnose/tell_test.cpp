@@ -57,7 +57,7 @@ TEST_CASE("a doubted name is believed by half at most") {
   CHECK(doubted([](Told& t) { t.out.improvement.reset(); }));
   CHECK(doubted([](Told& t) { t.out.improvement->se = 21; }));
   CHECK(doubted([](Told& t) { t.result.adequacy = kInadequate / 2; }));
-  CHECK(doubted([](Told& t) { t.result.other.emplace(); }));
+  CHECK(doubted([](Told& t) { t.result.other = t.result.findings.front(); }));
   CHECK(doubted([](Told& t) { t.out.baseline.geometry_scale = kLargeErrors; }));
   CHECK_FALSE(doubted([](Told& t) { t.out.baseline.geometry_scale = kLargeErrors, t.out.baseline.known = true; }));
   CHECK(doubted([](Told& t) { t.c.explanations.list[0].missing = 1; }));
@@ -241,4 +241,23 @@ TEST_CASE("what holds for several effects is said once") {
   CHECK(unless_said(first, " It is of this part.") == "");
   CHECK(unless_said(first, " It is gone.") == " It is gone.");
   CHECK(unless_said(first, "") == "");
+}
+
+TEST_CASE("at one temperature the error of a sensor is told beside that of a coefficient") {
+  const auto told = [](double second_K) {
+    Told t;
+    for (int i = 0; i < t.count(); ++i) {
+      TouchScene& s = t.scene(i);
+      s.on_part = s.point;
+      s.temperature.part = i % 2 ? 21 : second_K;
+    }
+    t.plant("thermal.part_expansion", {12, 0, 11.5, 0, 0, 0, 0});
+    t.find({"thermal.part_expansion"});
+    return t.tell().sentence;
+  };
+  const std::string sentence = told(21);
+  REQUIRE(sentence.find("Here temperature error ") != std::string::npos);
+  const double K = std::stod(sentence.substr(sentence.find("Here temperature error ") + 23));
+  CHECK(K == doctest::Approx(12 / 11.5).epsilon(0.1));
+  CHECK(told(24).find("would do nearly the same") == std::string::npos);
 }
