@@ -64,54 +64,74 @@ bool is_same_phase(const Case& c, const Finding& f) {
       SameDirection(c.touches, c.rows).is_alike(c.explanations.variants[f.variant].signature);
 }
 
+/// Why a name is believed by half at most.
+struct Doubts {
+  bool rounding = false, same_phase = false, cancelled = false, large_errors = false;
+  bool others = false;  ///< that have no sentence of their own here, or one that stands elsewhere
+
+  bool any() const { return rounding || same_phase || cancelled || large_errors || others; }
+};
+
+/// `moved`: what each finding does (displacements.hpp). `e`: what is told of finding `k` so far.
+Doubts doubts_of(const Case& c, const SearchResult& result, std::size_t k, const std::vector<Vector>& moved,
+                 const DiagnosedEffect& e, const BaselineSummary& baseline) {
+  const Finding& f = result.findings[k];
+  Doubts d;
+  d.rounding = may_be_rounding(c, e.largest_um);
+  d.same_phase = is_same_phase(c, f);
+  d.cancelled = nearly_cancelled(moved, k);
+  d.large_errors = !baseline.known && baseline.geometry_scale >= kLargeErrors;
+  const bool something_else = result.other || result.adequacy < kInadequate;
+  d.others = something_else || of_several_sizes(f.sizes) || !judged(c, f) || !all_plausible(e.parameters) ||
+      c.explanations.list[f.explanation].effect->only_spread;
+  return d;
+}
+
+/// Gives the machine file what it gets of a name, judges its sizes by that (carried.hpp), and says what is to be said of it.
+std::string give_file(const Case& c, const Finding& f, bool looked_for, DiagnosedEffect& e, Diagnosis& out) {
+  const Effect& effect = *c.explanations.list[f.explanation].effect;
+  if (e.change.front().gone() && looked_for) return " It is gone: the machine file needs nothing of it.";
+  if (!whose_clock(c, effect).empty()) return "";  // which says so
+  if (may_be_rounding(c, e.largest_um))
+    return fmt::format(
+        " It may come from the rounding of the positions to {:g} um, and no machine file carries it: record the digits that the machine has.",
+        c.step_um);
+  return belief_in_first(c.explanations, f) < kCarried ? kNotCarried : carry(*c.machine, effect, e.parameters, out);
+}
+
 }  // namespace
 
 void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
   const std::vector<Vector> moved = displacements(c, signatures_of(c, result));
   for (std::size_t k = 0; k < result.findings.size(); ++k) {
     const Finding& f = result.findings[k];
+    const Effect& effect = *c.explanations.list[f.explanation].effect;
+    const Variant& variant = c.explanations.variants[f.variant];
     DiagnosedEffect e;
+    std::vector<std::string_view> titles;
     for (const int m : f.set) {
       const Explanation& member = c.explanations.list[m];
-      e.members.push_back(member.name);
-      e.change.push_back(change_of(c.explanations.variants[f.variant_of(m)], c.explanations.variants[f.variant]));
+      e.members.push_back(member.name), titles.push_back(member.effect->title);
+      e.change.push_back(change_of(c.explanations.variants[f.variant_of(m)], variant));
     }
-    const bool something_else = result.other || result.adequacy < kInadequate;
     FoundSize size = estimate_size(c, result, k);
     e.parameters = std::move(size.parameters);
     e.largest_um = size.largest_um;
     const RunChange change = e.change.front();
-    const bool rounding = may_be_rounding(c, e.largest_um);
-    const Effect& effect = *c.explanations.list[f.explanation].effect;
-    const std::string clock = whose_clock(c, effect);
-    const bool looked_for = !change.gone() || was_looked_for(c, c.explanations.variants[f.variant]);
-    const std::string in_file = change.gone() && looked_for ? " It is gone: the machine file needs nothing of it."
-        : !clock.empty()                                    ? ""
-        : rounding
-        ? fmt::format(
-              " It may come from the rounding of the positions to {:g} um, and no machine file carries it: record the digits that the machine has.",
-              c.step_um)
-        : belief_in_first(c.explanations, f) < kCarried ? kNotCarried
-                                                        : carry(*c.machine, effect, e.parameters, out);
-    const bool possible = all_plausible(e.parameters);
-    const bool same_phase = is_same_phase(c, f);
-    const bool cancelled = nearly_cancelled(moved, k);
-    const bool large_errors = !out.baseline.known && out.baseline.geometry_scale >= kLargeErrors;
-    const bool doubted = something_else || large_errors || of_several_sizes(f.sizes) || rounding || same_phase ||
-        cancelled || effect.only_spread || !judged(c, f) || !possible;
+    const bool looked_for = !change.gone() || was_looked_for(c, variant);
+    const std::string in_file = give_file(c, f, looked_for, e, out);
+    const Doubts doubts = doubts_of(c, result, k, moved, e, out.baseline);
     const bool unproven = !predicts_better(out.improvement);
-    e.probability = believed(f.probability, doubted || unproven);
+    e.probability = believed(f.probability, doubts.any() || unproven);
     if (f.set.size() > 1) e.by_member = members_of(c, result, k, e);
-    std::vector<std::string_view> titles;
-    for (const int m : f.set) titles.push_back(c.explanations.list[m].effect->title);
     const bool unsure = e.probability < kTold;
     e.sentence = explanation_sentence(titles, e.parameters, "this recording", change, unsure, /*beside=*/k > 0) +
         pattern_beside(c, f) + not_of_one_size(f) +
-        (large_errors ? beside_large_errors(out.baseline.geometry_scale) : "") + (same_phase ? kSamePhase : "") +
-        (cancelled ? kNearlyCancelled : "") + much_like_it(effect) +
-        what_does_nearly_the_same(effect, c.explanations.variants[f.variant], e.parameters);
-    if (unproven && !doubted && f.probability > kDoubted) e.sentence += unless_said(out.effects, kUnproven);
-    for (const std::string& note : {whose_coordinates(c, effect), whose_direction(effect), clock})
+        (doubts.large_errors ? beside_large_errors(out.baseline.geometry_scale) : "") +
+        (doubts.same_phase ? kSamePhase : "") + (doubts.cancelled ? kNearlyCancelled : "") + much_like_it(effect) +
+        what_does_nearly_the_same(effect, variant, e.parameters);
+    if (unproven && !doubts.any() && f.probability > kDoubted) e.sentence += unless_said(out.effects, kUnproven);
+    for (const std::string& note : {whose_coordinates(c, effect), whose_direction(effect), whose_clock(c, effect)})
       e.sentence += unless_said(out.effects, note);
     if (change.in_each_file) e.sentence += " Its clock begins anew in each file.";
     if (!looked_for)
