@@ -337,9 +337,11 @@ void add_repl(CLI::App& app, Chosen& chosen) {
 void add_explain(CLI::App& app, Chosen& chosen) {
   CLI::App* command = app.add_subcommand("explain", "help for a DMIS word, an effect or a message code");
   const auto o = chosen_by(command, chosen, explain_command);
-  command->add_option("WORD", o->word, "for example PTMEAS, E0101; none: what there is");
-  command->add_flag("--markdown", o->markdown, "the whole reference as Markdown");
+  CLI::Option* word = command->add_option("WORD", o->word, "for example PTMEAS, E0101; none: what there is");
   add_format(command, o->format, {"text", "vega"});
+  command->add_flag("--markdown", o->markdown, "the whole reference as Markdown")
+      ->excludes(word)
+      ->excludes(command->get_option("--format"));
 }
 
 /// The command whose options were being read when an error struck, and its name as typed: "abbe machine screen".

@@ -112,6 +112,10 @@ class Usage(harness.Case):
         self.assertIn("'PTMEAS' is none", self.refused("E0431", "explain", "PTMEAS", "--format", "vega"))
         self.assertIn("none is named", self.refused("E0431", "explain", "--format", "vega"))
 
+    def test_the_whole_reference_is_asked_for_alone(self):
+        for also in (("PTMEAS",), ("machine.scale", "--format", "vega")):
+            self.assertIn("--markdown", self.refused("E0609", "explain", *also, "--markdown"))
+
     def test_numbers_are_decimals(self):
         self.write("length.dmi", harness.LENGTH)
         said = self.run_json("length.dmi", "--machines", "010", "--seed", "+08")
