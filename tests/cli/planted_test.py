@@ -116,8 +116,8 @@ class Planted(harness.Case):
     def diagnosis(self, recording):
         """What is said; the machine file with it in it can be used."""
         improved = f"{recording}.json"
-        # How a part grows depends on where its origin is, which only the program says.
-        program = ("--program", "frame.dmi") if recording.startswith("thermal.part_") else ()
+        # How a part grows, and about which plane it bends, depends on where its origin is, which only the program says.
+        program = ("--program", "frame.dmi") if recording.startswith(("thermal.part_", "part.clamping")) else ()
         said = json.loads(self.abbe("diagnose", recording, "--machine", MACHINE, "--threads", 1, "--format", "json", "--model-out", improved, *program).stdout)
         self.abbe("record", "frame.dmi", "--machine", improved, "-o", f"again_{recording}")
         return said
