@@ -385,6 +385,11 @@ class StudyRun {
       return fmt::format(
           "it begins {:g} s after the start of a program: of what happened before this program, set its t0_s to 0",
           begin_s);
+    if (const int setup = only_in_setup(setting); setup > 1)
+      return fmt::format(
+          "it is there in setup {} alone, and a program is run in setup 1: where the part is placed as in "
+          "setup {}, set its setup to 0",
+          setup, setup);
     return fmt::format("`abbe explain {}` says on what it depends; temperatures and loads come from a workpiece file{}",
                        setting.name, corrected ? "; of a corrected effect only the uncertainty remains" : "");
   }

@@ -142,6 +142,15 @@ double begins_at_s(const EffectSetting& setting) {
   return given == setting.parameters.end() ? effect.parameters[*moment].standard : given->second.value;
 }
 
+int only_in_setup(const EffectSetting& setting) {
+  for (const EffectParameter& p : find_effect(setting.name)->parameters) {
+    if (p.sought != Sought::setup) continue;
+    const auto given = setting.parameters.find(std::string(p.name));
+    if (given != setting.parameters.end()) return static_cast<int>(given->second.value);
+  }
+  return 0;
+}
+
 const EffectParameter* missing_size(const EffectSetting& setting) {
   const std::span<const EffectParameter> parameters = find_effect(setting.name)->parameters;
   const EffectParameter* first = nullptr;

@@ -24,4 +24,8 @@ const EffectParameter* missing_size(const EffectSetting&);
 /// When in a program the effect begins, s; 0 of one that is there from the start.
 double begins_at_s(const EffectSetting&);
 
+/// The only placement of the part in which the effect is there; 0 of one that is there in every placement. A program is
+/// run in the first.
+int only_in_setup(const EffectSetting&);
+
 }  // namespace abbe

@@ -65,6 +65,11 @@ class Effects(harness.Case):
         told = self.abbe("run", "length.dmi", "--machine", "crash.json", "--machines", 20).stderr
         self.assertIn("it begins 742 s after the start of a program: of what happened before this program, set its t0_s to 0", told)
 
+    def test_what_is_there_in_another_setup_is_told_as_that(self):
+        self.write("bent.json", with_effects([{"name": "part.clamping", "parameters": {"bow_um": 50, "setup": 2}}]))
+        told = self.abbe("run", "length.dmi", "--machine", "bent.json", "--machines", 20).stderr
+        self.assertIn("it is there in setup 2 alone, and a program is run in setup 1: where the part is placed as in setup 2, set its setup to 0", told)
+
     def test_another_word_is_refused(self):
         self.assertIn("corrected", self.refused("E0609", "run", "length.dmi", "--effects", "removed"))
 

@@ -63,6 +63,11 @@ namespace {
 /// A program is simulated from its own start: what happened late in this recording would come late, or never, in it.
 std::string when_in_file(const Effect& effect, const EffectSetting& setting) {
   const double begin_s = begins_at_s(setting);
+  const int setup = only_in_setup(setting);
+  if (setup > 1)
+    return fmt::format(
+        " In the machine file it is there in setup {} alone, and a program is run in setup 1: to reckon with it where the part is placed as in setup {}, set its setup to 0 there.",
+        setup, setup);
   if (!(begin_s > 0)) return "";
   return fmt::format(" In the machine file it begins {:.0f} s after the start of a program, as here: {}.", begin_s,
                      effect.stage == Stage::probe ? "for what is measured since it happened, set t0_s to 0 there"
@@ -85,8 +90,9 @@ std::string carry(const Machine& machine, const Effect& effect, std::vector<Diag
   if (before) out.superseded.push_back(before->index);
   const std::string when = gone ? "" : when_in_file(effect, setting);
   if (!gone) out.model_effects.push_back(std::move(setting));
-  if (!when.empty()) return when;
-  if (!before) return effect.stage == Stage::part ? kOfThisPart : "";
+  const std::string whose = effect.stage == Stage::part ? kOfThisPart : "";
+  if (!when.empty()) return whose + when;
+  if (!before) return whose;
   return gone           ? " The machine file has the opposite: it is not there any more."
       : before->instead ? " It takes the place of what the machine file has of it."
                         : " That is beside what the machine file has of it.";

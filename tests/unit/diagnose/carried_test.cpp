@@ -54,3 +54,13 @@ TEST_CASE("of a sudden change it is said when it begins in the machine file") {
   CHECK(said_of("machine.step", 742).find("has none of it") != std::string::npos);
   CHECK(said_of("probe.step", 0) == "");
 }
+
+TEST_CASE("of what is there in another placement of the part it is said that a program is run in the first") {
+  for (const double setup : {0.0, 1.0, 2.0}) {
+    std::vector<DiagnosedParameter> size = {{.name = "bow_um", .unit = "um", .value = 4, .u = 0.2},
+                                            {.name = "setup", .unit = "code", .value = setup}};
+    Diagnosis out;
+    const std::string said = carry(Machine{}, *find_effect("part.clamping"), size, out);
+    CHECK((said.find("there in setup 2 alone") != std::string::npos) == (setup == 2));
+  }
+}
