@@ -132,9 +132,8 @@ std::string third_sentence(const Diagnosis& d) {
     return is_noise(e.members.front());
   });
   if (scatter && !d.improvement)
-    return d.model_effects.empty()
-        ? ""
-        : "Scatter moves hardly any mean: no touch is predicted better with it, but results are less certain than without.";
+    return fmt::format("Scatter moves hardly any mean: no touch is predicted better with it{}.",
+                       d.model_effects.empty() ? "" : ", but results are less certain than without");
   if (!d.improvement) return "";
   const Improvement& i = *d.improvement;
   constexpr double kClear = 3;  // nats
