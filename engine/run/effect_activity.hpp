@@ -1,6 +1,7 @@
 // What the effects of a machine file did in a run.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 namespace abbe {
@@ -13,6 +14,11 @@ struct EffectActivity {
 using EffectActivities = std::vector<EffectActivity>;
 
 /// Joins those of some machines to those of others, of the same machine file.
-void add_activities(const EffectActivities& of_some, EffectActivities& of_all);
+inline void add_activities(const EffectActivities& of_some, EffectActivities& of_all) {
+  for (std::size_t k = 0; k < of_all.size(); ++k) {
+    of_all[k].moved |= of_some[k].moved;
+    of_all[k].beyond |= of_some[k].beyond;
+  }
+}
 
 }  // namespace abbe

@@ -213,7 +213,8 @@ void EffectSet::add_alike(const std::vector<int>& which, const Group& group, con
   Sum sum(group, batch, lanes.lanes);
   for (const int e : which) {
     const Active& a = active_[e];
-    if (a.effect->beyond && a.effect->beyond(*group.scene, a.value.data())) activities[e].beyond = true;
+    if (a.effect->beyond && !activities[e].beyond)
+      activities[e].beyond = a.effect->beyond(*group.scene, a.value.data());
     std::vector<double> draws;
     if (a.effect->draws_per == DrawsPer::touch)
       draws = normal_numbers(a.effect->draws, group.seed, sum.machine, a.stream, group.site, sum.visit);

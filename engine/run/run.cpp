@@ -134,13 +134,6 @@ const Samples* counterpart(const std::vector<Samples>& samples, std::size_t inde
   return found == other.samples.end() ? nullptr : &*found;
 }
 
-void add_activities(const EffectActivities& of_some, EffectActivities& of_all) {
-  for (std::size_t k = 0; k < of_all.size(); ++k) {
-    of_all[k].moved |= of_some[k].moved;
-    of_all[k].beyond |= of_some[k].beyond;
-  }
-}
-
 RunResult run_plan(const plan::Plan& plan, const Machine& machine, const VirtualMachines& machines,
                    const RunOptions& options, const SourceFile& source) {
   Executor executor(plan, machine, options, source);

@@ -373,14 +373,15 @@ bool others(const Case& c, const std::vector<Finding>& now, const std::vector<Fi
 }  // namespace
 
 void fit_beside_findings(Case& c, SearchResult& result) {
-  const bool nothing = result.findings.empty() && !result.other;
-  const auto beside = [&](const LinearModel& m) { return estimate(with_free(m, signatures_of(c, result))); };
-  result.hyper = nothing ? c.hyper : beside(c.model);
-  if (!nothing) {
-    const LinearModel rest = with_free(c.model, signatures_of(c, result));
+  const std::vector<const Matrix*> found = signatures_of(c, result);
+  result.hyper = c.hyper;
+  if (!found.empty()) {
+    const LinearModel rest = with_free(c.model, found);
+    result.hyper = estimate(rest);
+    // asked of the machine alone: any one explanation will do beside it
     c.rough = EvidenceSearch(rest, result.hyper, only(c.explanations, {0})).more_likely_rough();
   }
-  result.hyper_of_likelier = c.rough ? beside(likelier_ensemble(c, c.model)) : result.hyper;
+  result.hyper_of_likelier = c.rough ? estimate(with_free(likelier_ensemble(c, c.model), found)) : result.hyper;
 }
 
 SearchResult search(Case& c, EvidenceSearch& first) {

@@ -98,9 +98,9 @@ unsigned missed_by_names(const Case& c, const SearchResult& result) {
   return missing;
 }
 
-/// Of what the other effects miss, beside what is asked for already, as much as one can act on: three columns at most, of an effect all or none. What was not
-/// logged comes before what did not change, for logging takes no measurement of its own; and the catalogue begins with
-/// temperatures, which make the largest errors in most rooms.
+/// Of what the other effects miss, beside what is asked for already, as much as one can act on: three columns at most, of
+/// an effect all or none. What was not logged comes before what did not change, for logging takes no measurement of its
+/// own; and the catalogue begins with temperatures, which make the largest errors in most rooms.
 unsigned missed_first(const Case& c, unsigned asked) {
   constexpr std::size_t kMostColumns = 3;
   unsigned out = 0;
