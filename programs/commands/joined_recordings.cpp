@@ -15,22 +15,38 @@ namespace abbe {
 
 namespace {
 
+/// What was changed in several files alike is told once, of the first of them.
+class ToldOnce {
+ public:
+  void add(const std::string& file, std::string change) {
+    if (files_++ == 0) file_ = file, change_ = std::move(change);
+  }
+
+  /// `help`: the next step.
+  void tell(const char* help, std::vector<Diagnostic>& messages) const {
+    if (files_ == 0) return;
+    const std::string others = files_ == 1 ? ""
+        : files_ == 2                      ? "; so it is with 1 file more"
+                                           : fmt::format("; so it is with {} files more", files_ - 1);
+    messages.push_back(diagnostic(Code::N0708, fmt::format("{}: {}{}", file_, change_, others), help));
+  }
+
+ private:
+  std::size_t files_ = 0;
+  std::string file_, change_;
+};
+
 /// Two files may each have a clock of their own.
-void continue_clock_of(const Recording& before, Recording& next, const std::string& file,
-                       std::vector<Diagnostic>& messages) {
-  const std::optional<double> later_s = continue_clock(before.rows, next.rows);
-  if (!later_s) return;
-  messages.push_back(
-      diagnostic(Code::N0708,
-                 fmt::format("{}: its times overlap those of the recording ahead of it; they count as {:.0f} s later",
-                             file, *later_s),
-                 "if it was measured at another time, write its true times into time_s"));
+void continue_clock_of(const Recording& before, Recording& next, const std::string& file, ToldOnce& told) {
+  if (const std::optional<double> later_s = continue_clock(before.rows, next.rows))
+    told.add(
+        file,
+        fmt::format("its times overlap those of the recording ahead of it; they count as {:.0f} s later", *later_s));
 }
 
 /// Whoever forgets to number the repeats has the same run in every file. The same touch with another value is
 /// a further run, else the machine would seem to have changed in the middle of one.
-void continue_runs(const Recording& before, Recording& next, const std::string& file,
-                   std::vector<Diagnostic>& messages) {
+void continue_runs(const Recording& before, Recording& next, const std::string& file, ToldOnce& told) {
   const auto named = [](const RecordingRow& row) { return std::tie(row.feature, row.touch, row.setup, row.run); };
   std::map<std::tuple<std::string, int, int, int>, Vec3> touched;
   for (const RecordingRow& row : before.rows) touched.emplace(named(row), row.position_mm);
@@ -43,12 +59,10 @@ void continue_runs(const Recording& before, Recording& next, const std::string& 
   const int last = std::max_element(before.rows.begin(), before.rows.end(), in_run_order)->run;
   const int first = std::min_element(next.rows.begin(), next.rows.end(), in_run_order)->run;
   for (RecordingRow& row : next.rows) row.run += last + 1 - first;
-  messages.push_back(diagnostic(
-      Code::N0708,
-      fmt::format("{}: it repeats touches of the recording ahead of it under the same run; its runs are counted on: "
-                  "run {} counts as {}",
-                  file, first, last + 1),
-      "give every repeat its own number in the column 'run'"));
+  told.add(file,
+           fmt::format("it repeats touches of the recording ahead of it under the same run; its runs are counted on: "
+                       "run {} counts as {}",
+                       first, last + 1));
 }
 
 /// Between two files the styli may have been qualified anew, unless all say by the column `qualification` that they were
@@ -147,16 +161,19 @@ Recording joined(const std::vector<SourceFile>& files, Positions positions, std:
   doubt_qualifications(read);
   Recording all = std::move(read.front());
   for (const SourceFile& file : files) all.files.push_back(file.name());
+  ToldOnce later, further_runs;
   for (std::size_t k = 1; k < files.size(); ++k) {
     const std::string& name = files[k].name();
     Recording& one = read[k];
     doubt_machine(all, files[0].name(), one, name, messages);
-    continue_clock_of(all, one, name, messages);
-    continue_runs(all, one, name, messages);
+    continue_clock_of(all, one, name, later);
+    continue_runs(all, one, name, further_runs);
     all.rows.insert(all.rows.end(), one.rows.begin(), one.rows.end());
     // new styli; of what is said twice the first counts
     all.metadata.insert(all.metadata.end(), one.metadata.begin(), one.metadata.end());
   }
+  later.tell("if they were measured at another time, write their true times into time_s", messages);
+  further_runs.tell("give every repeat its own number in the column 'run'", messages);
   return all;
 }
 

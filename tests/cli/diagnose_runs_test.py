@@ -53,6 +53,13 @@ class DiagnoseRuns(harness.Case):
         placed_anew = self.changed(unnumbered, lambda row: row | {"setup": "2"}, "placed_anew.csv")
         self.assertNotIn(told, self.abbe("diagnose", first, placed_anew, "--machine", MACHINE, "--design-only").stderr)
 
+    def test_what_was_done_to_several_files_is_told_once(self):
+        """Of n files without run numbers n - 1 notes said the same."""
+        files = [self.changed(self.folder / self.record(n, "--seed", 2), lambda row: row | {"run": "1"}, f"file{n}.csv") for n in (1, 2, 3, 4)]
+        said = self.abbe("diagnose", *files, "--machine", MACHINE, "--design-only").stderr
+        self.assertEqual(said.count("N0708"), 2, said)
+        self.assertEqual(said.count("so it is with 2 files more"), 2, said)
+
     def test_a_part_that_was_moved_between_runs_of_one_setup_is_thought_of(self):
         """Of what is new in a run its sentence says it, of a pattern what to do next; and nobody says it twice."""
         first, second = self.record(1, "--seed", 3), self.record(2, "--seed", 3)
