@@ -142,6 +142,9 @@ Baseline baseline_of(const Case& c, const Longer& longer) {
 
 double minutes_of(const Longer& longer) {
   const std::vector<RecordedTouch>& all = longer.touches.touches;
+  constexpr double kPlacing_min = 5;
+  int placed = 0;
+  for (std::size_t k = longer.first + 1; k < all.size(); ++k) placed += all[k].scene.setup != all[k - 1].scene.setup;
   const Path path = path_of(longer);
   Motion motion(path.steps.front().kind == Step::Kind::go ? path.steps.front().to : all[longer.first].scene.point,
                 default_motion(longer.machine));
@@ -154,7 +157,7 @@ double minutes_of(const Longer& longer) {
     motion.settings().measuring_mm_s2 = s.acceleration_mm_s2;
     motion.touch(s.point + s.stylus.radius_mm * s.normal, s.normal);
   }
-  return motion.time_s() / 60;
+  return motion.time_s() / 60 + placed * kPlacing_min;
 }
 
 }  // namespace abbe::diagnose

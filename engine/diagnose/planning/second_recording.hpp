@@ -25,7 +25,7 @@ std::optional<Longer> repeated(const Case&, const Change&, std::size_t most = kJ
 /// The baseline of both together, with the groups of noise that the recording has.
 Baseline baseline_of(const Case&, const Longer&);
 
-/// How long the machine takes for the new touches, min.
+/// How long the new touches take, min: the machine, and the operator who places the part anew between two setups.
 double minutes_of(const Longer&);
 
 }  // namespace abbe::diagnose

@@ -161,6 +161,16 @@ TEST_CASE("a repetition has the noise of what it repeats") {
   }
 }
 
+TEST_CASE("a part that is placed anew between the touches takes the operator's time too") {
+  TouchedBlock block;
+  const auto minutes = [&] { return minutes_of(*repeated(block.c, block.change("once more"))); };
+  const double once = minutes();
+  for (std::size_t i = block.c.touches.touches.size() / 2; i < block.c.touches.touches.size(); ++i)
+    block.recording.rows[i].setup = 2;
+  block.c.touches = recorded_touches(block.recording, block.machine, "");
+  CHECK(minutes() - once == doctest::Approx(5).epsilon(0.1));
+}
+
 TEST_CASE("the tip stays before the surfaces and changes features above them") {
   const TouchedBlock block;
   const auto longer = repeated(block.c, block.change("once more"));
