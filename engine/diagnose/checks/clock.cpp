@@ -19,22 +19,25 @@ constexpr double kHour_s = 3600;
 
 void continue_past_midnight(Recording& recording, const std::string& file, std::vector<Diagnostic>& messages) {
   constexpr double kDay_s = 24 * kHour_s;
-  std::vector<double*> times;
+  std::vector<RecordingRow*> timed;
   for (RecordingRow& row : recording.rows)
-    if (row.time_s) times.push_back(&*row.time_s);
-  const auto earlier = [](const double* a, const double* b) { return *a < *b; };
-  const auto fall = std::adjacent_find(times.begin(), times.end(),
-                                       [](const double* a, const double* b) { return *b < *a - kDay_s / 2; });
-  if (fall == times.end()) return;
+    if (row.time_s) timed.push_back(&row);
+  const auto earlier = [](const RecordingRow* a, const RecordingRow* b) { return *a->time_s < *b->time_s; };
+  const auto fall = std::adjacent_find(timed.begin(), timed.end(), [](const RecordingRow* a, const RecordingRow* b) {
+    return *b->time_s < *a->time_s - kDay_s / 2;
+  });
+  if (fall == timed.end()) return;
   const auto morning = fall + 1;
-  const double last = **std::max_element(times.begin(), times.end(), earlier),
-               evening = **std::min_element(times.begin(), morning, earlier),
-               end = **std::max_element(morning, times.end(), earlier);
+  const double last = *(*std::max_element(timed.begin(), timed.end(), earlier))->time_s,
+               evening = *(*std::min_element(timed.begin(), morning, earlier))->time_s,
+               end = *(*std::max_element(morning, timed.end(), earlier))->time_s;
   if (last > kDay_s || end > evening - kDay_s / 2) return;
   messages.push_back(diagnostic(
-      Code::N0727, fmt::format("{}: its clock falls from {:.0f} s to {:.0f} s", file, **fall, **morning),
+      Code::N0727,
+      fmt::format("{}: its clock falls from {:.0f} s to {:.0f} s", file_of(recording, **morning, file),
+                  *(*fall)->time_s, *(*morning)->time_s),
       "times after midnight count on; if the part was measured on another day, write true times into time_s"));
-  std::for_each(morning, times.end(), [](double* t) { *t += kDay_s; });
+  std::for_each(morning, timed.end(), [](RecordingRow* row) { *row->time_s += kDay_s; });
 }
 
 void continue_where_put_back(Recording& recording, const std::string& file, std::vector<Diagnostic>& messages) {

@@ -57,8 +57,8 @@ void RecordedStyli::require_sensor(const std::string& label, const RecordingRow&
   const std::string near = nearest_word(label, names);
   throw UserError(diagnostic(
       Code::E0301,
-      fmt::format("{}:{}: neither the recording nor machine '{}' says what sensor '{}' is", file_, row.line,
-                  machine_.name, label),
+      fmt::format("{}:{}: neither the recording nor machine '{}' says what sensor '{}' is",
+                  file_of(recording_, row, file_), row.line, machine_.name, label),
       near.empty()
           ? fmt::format(
                 "add the line '# sensor {}: head_deg A B tip_in_r_mm x y z diameter_mm d', or the sensor to the machine file",
@@ -82,8 +82,9 @@ void RecordedStyli::assume(const RecordingRow& row, plan::SensorDef& def) {
   if (!messages_.empty()) return;
   messages_.push_back(diagnostic(
       Code::W0541,
-      fmt::format("{}: rows do not name their stylus, first '{}' touch {}: '{}' is assumed{}", file_, row.feature,
-                  row.touch, def.label, def.from_machine_file ? "" : ", 100 mm straight from the head, 2 mm ball"),
+      fmt::format("{}: rows do not name their stylus, first '{}' touch {}: '{}' is assumed{}",
+                  file_of(recording_, row, file_), row.feature, row.touch, def.label,
+                  def.from_machine_file ? "" : ", 100 mm straight from the head, 2 mm ball"),
       known_.size() > 1 ? "fill in 'sensor' there, or leave those rows out: by it the other touches are told apart"
                         : "add the column 'sensor', and the sensor to the machine file"));
 }

@@ -22,7 +22,9 @@ inline constexpr double kReadBack_deg = 0.1;
 /// Angles that were read back scatter by thousandths of a degree about those that the head was sent to.
 class RecordedStyli {
  public:
-  RecordedStyli(const Machine& machine, const std::string& file) : machine_(machine), file_(file) {}
+  /// `file`: what the whole recording is called.
+  RecordedStyli(const Recording& recording, const Machine& machine, const std::string& file)
+      : recording_(recording), machine_(machine), file_(file) {}
 
   /// That of a row, which stays where it is. Throws UserError: a name that neither the recording nor the machine knows.
   const Sensor& of(const RecordingRow&);
@@ -44,6 +46,7 @@ class RecordedStyli {
   void require_sensor(const std::string& label, const RecordingRow&) const;
   void assume(const RecordingRow&, plan::SensorDef&);
 
+  const Recording& recording_;
   const Machine& machine_;
   std::string file_;
   std::map<std::string, std::deque<Known>> known_;  ///< by name

@@ -202,8 +202,8 @@ void require_targets(const Recording& recording, const std::string& file) {
   for (const RecordingRow& row : recording.rows) {
     if (row.target_mm && row.normal) continue;
     throw UserError(diagnostic(Code::E0543,
-                               fmt::format("{}:{}: touch {} of '{}' has no {}", file, row.line, row.touch, row.feature,
-                                           row.target_mm ? "normal" : "target"),
+                               fmt::format("{}:{}: touch {} of '{}' has no {}", file_of(recording, row, file), row.line,
+                                           row.touch, row.feature, row.target_mm ? "normal" : "target"),
                                "give the columns tx, ty, tz, nx, ny, nz, or the measurement program with --program"));
   }
 }
@@ -212,7 +212,7 @@ RecordedTouches recorded_touches(const Recording& recording, const Machine& mach
   ABBE_CHECK(!recording.rows.empty());
   RecordedTouches out;
   require_targets(recording, file);
-  RecordedStyli styli(machine, file);
+  RecordedStyli styli(recording, machine, file);
   std::vector<const Sensor*> sensor_of;
   std::vector<Vec3> readings, surfaces;
   for (const RecordingRow& row : recording.rows) {
