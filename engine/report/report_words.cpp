@@ -68,13 +68,6 @@ std::span<const ReportWord> report_words() {
       ReportWord{"modelled", "influences",
                  "what acts on the result: modelled, bounded or not modelled (ISO/TS 15530-4)"},
       ReportWord{"bounded", "at_most_um", "an influence that is not propagated: what it may do at most"},
-      ReportWord{"", "no_mismatch", "verdict of a diagnosis: nothing was found that a machine in order does not do"},
-      ReportWord{"", "named", "verdict of a diagnosis: one effect explains the mismatch, with the probability told"},
-      ReportWord{"", "one_of", "verdict of a diagnosis: several effects explain the mismatch equally well"},
-      ReportWord{"", "unexplained",
-                 "verdict of a diagnosis: a mismatch is located, but no effect of the catalogue explains it"},
-      ReportWord{"", "cannot_judge",
-                 "verdict of a diagnosis, or of one effect: what would tell was not logged or did not change"},
       ReportWord{"", "messages", "what was said of program, machine and result, with its code"},
   };
   return table;

@@ -1,5 +1,5 @@
-// The words of the report of `abbe run`, for whoever reads one: the columns of the text and of the page, the keys of the
-// JSON. docs/results.md has more about each.
+// The words of reports (`abbe run`) and diagnoses (`abbe diagnose`), for whoever reads one: the columns of the text and of
+// the page, the keys of the JSON. docs/results.md has more about each.
 #pragma once
 
 #include <span>
@@ -12,5 +12,6 @@ struct ReportWord {
   std::string_view help;
 };
 std::span<const ReportWord> report_words();
+std::span<const ReportWord> diagnosis_words();
 
 }  // namespace abbe

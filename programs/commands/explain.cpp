@@ -2,7 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <iterator>
+#include <span>
 
 #include "engine/base/diagnostic.hpp"
 #include "engine/base/ids.hpp"
@@ -124,9 +126,18 @@ std::optional<std::string> explain_family(std::string_view name) {
   return fmt::format("{}: a family of effects\n{}", name, lines);
 }
 
-/// A word of the report, first as it is written: u is not U.
-std::optional<std::string> explain_report_word(const std::string& asked) {
-  const std::span<const ReportWord> words = report_words();
+/// The words of one kind of answer.
+struct Answers {
+  std::string_view title, plural;
+  std::span<const ReportWord> words;
+};
+std::array<Answers, 2> answers() {
+  return {{{"Report", "reports", report_words()}, {"Diagnosis", "diagnoses", diagnosis_words()}}};
+}
+
+/// A word of an answer, first as it is written: u is not U.
+std::optional<std::string> explain_word_of(const Answers& answers, const std::string& asked) {
+  const std::span<const ReportWord> words = answers.words;
   auto found =
       std::find_if(words.begin(), words.end(), [&](const ReportWord& w) { return w.word == asked || w.key == asked; });
   const std::string same = upper(asked);
@@ -136,20 +147,22 @@ std::optional<std::string> explain_report_word(const std::string& asked) {
   if (found == words.end() || asked.empty()) return std::nullopt;
   const auto& [word, key, help] = *found;
   const bool both = !word.empty() && !key.empty() && word != key;
-  return fmt::format("{}: a word of reports{}\n  {}\n", word.empty() ? key : word,
+  return fmt::format("{}: a word of {}{}\n  {}\n", word.empty() ? key : word, answers.plural,
                      both ? fmt::format("; `{}` in the JSON", key) : "", help);
 }
 
-std::vector<std::string_view> words_of_reports() {
+std::vector<std::string_view> words_of(const Answers& answers) {
   std::vector<std::string_view> names;
-  for (const ReportWord& w : report_words())
+  for (const ReportWord& w : answers.words)
     for (const std::string_view name : {w.word, w.key})
       if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   return names;
 }
 
 std::string overview() {
-  std::string out = lang::list_of_words() + "\n" + lang::list_of_group("Report", words_of_reports()) + "\nEffects\n";
+  std::string out = lang::list_of_words();
+  for (const Answers& one : answers()) out += "\n" + lang::list_of_group(one.title, words_of(one));
+  out += "\nEffects\n";
   for (const Effect* effect : effects()) out += line_of(*effect);
   return out +
       "\n`abbe explain WORD` explains a word, an effect, a family of effects (head), or the code of a message (E0110).\n";
@@ -158,7 +171,8 @@ std::string overview() {
 [[noreturn]] void unknown(const std::string& word) {
   std::vector<std::string_view> candidates = lang::explained_words();
   for (const Effect* effect : effects()) candidates.push_back(effect->name);
-  for (const std::string_view name : words_of_reports()) candidates.push_back(name);
+  for (const Answers& one : answers())
+    for (const std::string_view name : words_of(one)) candidates.push_back(name);
   for (const CodeInfo& code : all_codes()) candidates.push_back(code.name);
   const std::string near = nearest_name(word, candidates);
   throw UserError(diagnostic(Code::E0609, fmt::format("there is nothing to explain under '{}'", word),
@@ -187,10 +201,15 @@ std::string text_of(const ExplainOptions& options) {
   if (options.markdown) return lang::reference_markdown();
   if (!options.word) return overview();
   const std::string& word = *options.word;
-  std::string out;  // a word may be one of programs and of reports: VALUE
-  for (const auto& text : {explain_code(upper(word)), lang::explain_word(word), explain_report_word(word),
-                           explain_effect(word), explain_family(word)})
+  std::string out;  // a word may be one of programs, of reports and of diagnoses: VALUE
+  const auto add = [&](const std::optional<std::string>& text) {
     if (text) out += (out.empty() ? "" : "\n") + *text;
+  };
+  add(explain_code(upper(word)));
+  add(lang::explain_word(word));
+  for (const Answers& one : answers()) add(explain_word_of(one, word));
+  add(explain_effect(word));
+  add(explain_family(word));
   if (out.empty()) out = lang::explain_argument_word(word).value_or("");
   if (out.empty()) unknown(word);
   return out;

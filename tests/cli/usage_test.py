@@ -1,4 +1,5 @@
 """The command line itself: help, version, and wrong usage (exit code 2)."""
+import json
 import os
 import pathlib
 import re
@@ -75,6 +76,15 @@ class Usage(harness.Case):
         self.assertIn("expanded uncertainty", self.abbe("explain", "U").stdout)
         self.assertIn("`lcl` in the JSON", self.abbe("explain", "LCL").stdout)
         self.assertIn("VALUE/", self.abbe("explain", "value").stdout)
+
+    def test_every_word_of_a_diagnosis_is_explained(self):
+        self.abbe("record", harness.ROOT / "examples/programs/sphere_25_points.dmi", "-o", "rec.csv")
+        said = json.loads(self.abbe("diagnose", "rec.csv", "--format", "json").stdout)
+        listed = self.abbe("explain").stdout.split("\nDiagnosis\n")[1].split("\n\n")[0].split()
+        for word in {*said, "prob.", "detected", "looks like", "gain", "log_score_gain", "geometry_scale", *listed} - {"schema", "looks", "like"}:
+            self.assertIn(": a word of diagnoses", self.abbe("explain", word).stdout, word)
+        self.assertIn("a word of reports", self.abbe("explain", "verdict").stdout)
+        self.assertIn("cannot be told apart", self.abbe("explain", "members").stdout)
 
     def test_families_and_parts_of_the_names_of_effects(self):
         self.assertIn("  head.reindexing ", self.abbe("explain", "head").stdout)
