@@ -37,7 +37,9 @@ double expected(const Arguments& arguments) {
 
 double nominal_angle(const Arguments& arguments, Shapes, Elements) { return expected(arguments); }
 
-ToleranceLimits angle_limits(const Arguments& arguments, Elements) { return written_limits(arguments); }
+ToleranceLimits angle_limits(const Arguments& arguments, Elements) {
+  return expected(arguments) < 0 ? written_limits(arguments) : limits_from_0(arguments);
+}
 
 /// The angle of u and v as they point; of a plane and an axis the one that has no side, up to 90 degrees.
 double directed(const Vec3& u, const Vec3& v, bool plane_and_axis) {

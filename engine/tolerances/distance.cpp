@@ -208,7 +208,7 @@ double nominal_distance(const Arguments& arguments, Shapes shapes, Elements nomi
 
 const char* any_features(const Arguments&, Shapes) { return nullptr; }
 
-ToleranceLimits distance_limits(const Arguments& arguments, Elements) { return written_limits(arguments); }
+ToleranceLimits distance_limits(const Arguments& arguments, Elements) { return limits_from_0(arguments); }
 
 double nominal_between(const Arguments& arguments, Shapes shapes, Elements nominal) {
   return nominal_distance(arguments, shapes, nominal, 0, 1);

@@ -60,6 +60,21 @@ class Figures(harness.Case):
         self.assertIn("W0264", [m["code"] for m in report["messages"]])
         self.assertIn("OUTOL", next(line for line in (self.folder / "below.dmo").read_text().splitlines() if line.startswith("TA(BELOW)")))
 
+    def test_a_lower_limit_of_0_of_what_has_no_sign_is_that_of_a_zone(self):
+        # B is touched twice, and its two faces make an angle of 0: neither value can be below 0, whatever the errors are.
+        touches = "".join(f"PTMEAS/CART,100,{y},{z},1,0,0\n" for y, z in ((-40, -40), (40, -40), (0, 40)))
+        faces = "".join(f"F({l})=FEAT/PLANE,CART,100,0,0,1,0,0\nMEAS/PLANE,F({l}),3\n{touches}ENDMES\n" for l in ("E1", "E2"))
+        self.write("unsigned.dmi", LENGTH.replace("ENDFIL\n", faces + "F(C)=FEAT/POINT,CART,100,0,0,1,0,0\nMEAS/POINT,F(C),1\nPTMEAS/CART,100,0,0,1,0,0\nENDMES\n"
+                                                  "T(X)=TOL/DISTB,LIMIT,0,0.05,XAXIS\nT(P)=TOL/DISTB,NOMINL,0,0,0.05,PT2PT\nOUTPUT/FA(B),FA(C),TA(X),TA(P)\n"
+                                                  "T(ANGLE)=TOL/ANGLB,LIMIT,0,0.05\nOUTPUT/FA(E1),FA(E2),TA(ANGLE)\nENDFIL\n"))
+        characteristics = self.run_json("unsigned.dmi", "--machines", 400)["characteristics"]
+        self.assertEqual([c["tolerance"] for c in characteristics], ["LEN", "X", "P", "ANGLE"])
+        for c in characteristics[1:]:
+            self.assertEqual((c["tolerance"], c["tolerance_limits"]), (c["tolerance"], [None, 0.05]))
+            self.assertEqual((c["conformance_probability"], c["decision"]["verdict"]), (1, "conforms"))
+            self.assertIsNone(c["decision"]["acceptance_limits"][0])
+            self.assertGreater(c["decision"]["acceptance_limits"][1], 0)
+
     def test_a_form_that_no_touch_can_show_is_not_certain(self):
         circle = "F(C{0})=FEAT/CIRCLE,INNER,CART,0,0,0,0,0,1,50\nMEAS/CIRCLE,F(C{0}),{0}\nENDMES\nOUTPUT/FA(C{0}),TA(RO)\n"
         self.write("three.dmi", LENGTH.replace("ENDFIL\n", "T(RO)=TOL/CIRLTY,0.0001\n" + circle.format(3) + circle.format(4) + "ENDFIL\n"))

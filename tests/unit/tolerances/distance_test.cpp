@@ -47,6 +47,22 @@ TEST_CASE("DISTB with LIMIT takes its nominal from the nominal features") {
   CHECK(*e.limits().upper == 3.1);
 }
 
+TEST_CASE("A lower limit of 0 bounds no distance, as none is less") {
+  const auto limits = [](const char* axis, double nominal, double lower) {
+    return nominal_distance("DISTB", axis, nominal, lower, 0.1)
+        .feature(Shape::point, at({10, 0, 0}))
+        .feature(Shape::point, at({10, 0, 0}))
+        .limits();
+  };
+  for (const char* axis : {"XAXIS", "PT2PT"}) {
+    CHECK_FALSE(limits(axis, 0, 0).lower);
+    CHECK_FALSE(limits(axis, 25.4, -25.4).lower);
+    CHECK(limits(axis, 0, 0.01).lower == 0.01);
+    CHECK(limits(axis, 0, -0.1).lower == -0.1);
+    CHECK(limits(axis, 0, 0).upper == 0.1);
+  }
+}
+
 TEST_CASE("A distance is signed where its limits allow negative values") {
   const Element a = at({10, 0, 0}), b = at({9.98, 0, 0});
   CHECK(nominal_distance("DISTB", "XAXIS", 0, -0.1, 0.1).feature(Shape::point, a).feature(Shape::point, b).value() ==
