@@ -42,6 +42,20 @@ class Expectations(harness.Case):
         self.program("FA(B),FA(B2),TA(LEN) value <= 101", text=other)
         self.assertIn("evaluates no FA(B),FA(B2) with TA(LEN)", self.abbe("test", "length.dmi", code=1).stdout)
 
+    def test_check_counts_occurrences_as_a_report_does(self):
+        # Two lines that evaluate the same have one occurrence each; a loop has as many as it makes.
+        self.program("TA(LEN) occurrence 2 u >= 0", text=LENGTH.replace("ENDFIL", "OUTPUT/FA(A),FA(B),TA(LEN)\nENDFIL"))
+        self.assertIn("E0608", self.abbe("test", "length.dmi", code=1).stdout)
+        said = self.abbe("check", "length.dmi", code=1)
+        self.assertIn("error E0215: no line of this program evaluates TA(LEN) more than 1 time", said.stdout + said.stderr)
+        output = "OUTPUT/FA(A),FA(B),TA(LEN)\n"
+        for limit, kind in (("2", "turns written out"), ("N-98", "turns as many as measured")):
+            with self.subTest(kind):
+                looped = LENGTH.replace(output, f"DECL/INTGR,N\nN=OBTAIN/FA(B),4\nDO/I,1,{limit}\n{output}ENDDO\n").replace("CART,100,", "CART,100.5,")
+                self.program("TA(LEN) occurrence 2 u >= 0", text=looped)
+                self.assertIn("1 passed, 0 failed", self.abbe("test", "length.dmi").stdout)
+                self.abbe("check", "length.dmi")
+
     def test_a_micrometre_of_a_length_shows(self):
         self.program("TA(LEN) value between 100.0000001 100.1", "TA(LEN) mean >= 101")
         said = self.abbe("test", "length.dmi", code=1).stdout
