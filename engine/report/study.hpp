@@ -54,7 +54,7 @@ Study run_study(const plan::Plan&, const Machine&, const StudyOptions& options, 
                 const Progress& progress = {});
 
 /// Every sample of a study as CSV (RFC 4180):
-/// machine,candidate,characteristic,occurrence,unit,reference,value. Angles in degrees, numbers so
+/// machine,candidate,characteristic,line,occurrence,unit,reference,value. Angles in degrees, numbers so
 /// that they read back exactly.
 std::string samples_csv(const plan::Plan&, const Study&);
 

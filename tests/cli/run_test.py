@@ -143,6 +143,17 @@ class Figures(harness.Case):
         self.assertIn({"name": "geometry", "status": "modelled"}, report["influences"])
         self.assertIn({"name": "operator", "status": "not modelled"}, report["influences"])
 
+    def test_samples_of_two_lines_are_told_apart(self):
+        again = "MEAS/POINT,F(B),1\nPTMEAS/CART,100,0,0,1,0,0\nENDMES\nOUTPUT/FA(A),FA(B),TA(LEN)\nENDFIL\n"
+        self.write("again.dmi", LENGTH.replace("ENDFIL\n", again))
+        report = self.run_json("again.dmi", "--machines", 20, "--csv", "samples.csv")
+        with open(self.folder / "samples.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual(len({(r["machine"], r["characteristic"], r["line"], r["occurrence"]) for r in rows}), 40)
+        for c in report["characteristics"]:
+            values = [float(r["value"]) for r in rows if (r["line"], r["occurrence"]) == (str(c["line"]), "1")]
+            self.assertAlmostEqual(statistics.mean(values), c["mean"], delta=1e-12)
+
     def test_figures_agree_with_each_other_and_with_the_samples(self):
         report = self.run_json("length.dmi", "--machines", 500, "--csv", "samples.csv")
         length = report["characteristics"][0]

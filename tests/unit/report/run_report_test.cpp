@@ -282,8 +282,8 @@ TEST_CASE("samples as CSV: every machine, labels quoted, angles in degrees") {
   study.result.samples[0].reference = std::nullopt;
   study.candidates = {0, 7};
   CHECK(samples_csv(length_and_angle(), study) ==
-        "machine,candidate,characteristic,occurrence,unit,reference,value\r\n"
-        "1,7,\"FA(A),FA(B),TA(LEN)\",1,mm,,500.25\r\n"
-        "0,0,\"FA(A),TA(ANG)\",1,deg,90,90\r\n"
-        "1,7,\"FA(A),TA(ANG)\",1,deg,90,45\r\n");
+        "machine,candidate,characteristic,line,occurrence,unit,reference,value\r\n"
+        "1,7,\"FA(A),FA(B),TA(LEN)\",41,1,mm,,500.25\r\n"
+        "0,0,\"FA(A),TA(ANG)\",42,1,deg,90,90\r\n"
+        "1,7,\"FA(A),TA(ANG)\",42,1,deg,90,45\r\n");
 }
