@@ -196,6 +196,14 @@ class NextProgram(harness.Case):
             self.assertIn(key, first.read_text())
             self.assertIn(key, second.read_text())
 
+    def test_a_motion_that_was_logged_as_0_was_not_logged(self):
+        first = self.record(self.write("block.dmi", block()), "first.csv", "--seed", 31, "--with", "probe.tip_radius:amplitude_um=5")
+        still = self.changed(first, lambda row: row | {"speed_mm_s": "0", "accel_mm_s2": "0"}, "still.csv")
+        for best in self.diagnosis(still)["next_measurement"]:
+            self.assertGreater(best["minutes"], 0)
+            self.assertNotRegex(best["program"], "MESVEL,MMPS|MESACL")
+            self.assertNotRegex(best["change"], "speed|acceleration")
+
     def test_a_calibrated_part_is_calibrated_in_the_second_recording_too(self):
         sizes = {name: {"diameter_mm": {"value": 2 * r + 0.01, "u": 0.0003}} for name, (_, _, r) in BORES.items()}
         part = self.write("part.json", json.dumps({"schema": "abbe.workpiece/1", "name": "block", "surfaces": sizes}))

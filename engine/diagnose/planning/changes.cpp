@@ -26,15 +26,17 @@ void add_motion(const Case& c, std::vector<Change>& list) {
   if (logged(c, Covariate::speed)) {
     const double speed = median_of(c, [](const TouchScene&s) { return s.speed_mm_s; }),
                  other = speed > 5 ? speed / 3 : 3 * speed;
-    list.push_back({.text = fmt::format("repeat with probing speed {:.3g} mm/s", other),
-                    .instruction = "",
-                    .apply = [=](RecordingRow& row, Machine&) { row.speed_mm_s = other; }});
+    if (other > 0)
+      list.push_back({.text = fmt::format("repeat with probing speed {:.3g} mm/s", other),
+                      .instruction = "",
+                      .apply = [=](RecordingRow& row, Machine&) { row.speed_mm_s = other; }});
   }
   if (logged(c, Covariate::acceleration)) {
     const double other = median_of(c, [](const TouchScene& s) { return s.acceleration_mm_s2; }) / 3;
-    list.push_back({.text = fmt::format("repeat with acceleration {:.3g} mm/s2", other),
-                    .instruction = "",
-                    .apply = [=](RecordingRow& row, Machine&) { row.accel_mm_s2 = other; }});
+    if (other > 0)
+      list.push_back({.text = fmt::format("repeat with acceleration {:.3g} mm/s2", other),
+                      .instruction = "",
+                      .apply = [=](RecordingRow& row, Machine&) { row.accel_mm_s2 = other; }});
   }
   list.push_back({.text = "repeat the whole sequence once more", .instruction = "", .changes_touches = false});
   list.push_back({.text = "repeat the whole sequence in reverse order",

@@ -201,7 +201,7 @@ class Writer {
       say("The recording does not tell whether temperatures were compensated: set TECOMP as it was then.");
     if (!said(r.metadata, "approach_mm"))
       say("The recording does not tell how far from the surface a touch begins: SNSET is a usual one.");
-    if (!row(longer_.first).speed_mm_s)
+    if (!moves(row(longer_.first).speed_mm_s))
       say("The recording does not tell how fast it was touched: set FEDRAT/MESVEL as it was then.");
   }
 
@@ -235,6 +235,9 @@ class Writer {
 
   void select(std::size_t k) { out_ += fmt::format("SNSLCT/SA({})\n", labels_.tips.at(scene(k).stylus.tip_ordinal)); }
 
+  /// With a 0 that stands for what was not logged, no machine would move.
+  static bool moves(const std::optional<double>& logged) { return logged && *logged > 0; }
+
   /// Settings that this touch has and the one before had not.
   void set(const char* statement, double value, double& before) {
     if (value == before) return;
@@ -246,8 +249,8 @@ class Writer {
   void set_motion(std::size_t k) {
     constexpr double kLeast_mm = 0.1;
     const double free_mm = std::max(kLeast_mm, path_.free_mm[k - longer_.first]);
-    if (row(k).speed_mm_s) set("FEDRAT/MESVEL,MMPS", *row(k).speed_mm_s, speed_mm_s_);
-    if (row(k).accel_mm_s2) set("ACLRAT/MESACL,MMPSS", *row(k).accel_mm_s2, acceleration_mm_s2_);
+    if (moves(row(k).speed_mm_s)) set("FEDRAT/MESVEL,MMPS", *row(k).speed_mm_s, speed_mm_s_);
+    if (moves(row(k).accel_mm_s2)) set("ACLRAT/MESACL,MMPSS", *row(k).accel_mm_s2, acceleration_mm_s2_);
     set("SNSET/APPRCH", std::min(approach_mm_, free_mm), set_approach_mm_);
     set("SNSET/RETRCT", std::min(retract_mm_, free_mm), set_retract_mm_);
   }

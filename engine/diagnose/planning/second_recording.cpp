@@ -141,20 +141,23 @@ Baseline baseline_of(const Case& c, const Longer& longer) {
 }
 
 double minutes_of(const Longer& longer) {
+  // No touch is made without a speed or an acceleration: where 0 stands, that of the machine counts.
+  const MotionSettings usual = default_motion(longer.machine);
+  const auto moving = [](double logged, double otherwise) { return logged > 0 ? logged : otherwise; };
   const std::vector<RecordedTouch>& all = longer.touches.touches;
   constexpr double kPlacing_min = 5;
   int placed = 0;
   for (std::size_t k = longer.first + 1; k < all.size(); ++k) placed += all[k].scene.setup != all[k - 1].scene.setup;
   const Path path = path_of(longer);
   Motion motion(path.steps.front().kind == Step::Kind::go ? path.steps.front().to : all[longer.first].scene.point,
-                default_motion(longer.machine));
+                usual);
   for (const Step& step : path.steps) {
     const TouchScene& s = all[step.touch].scene;
     if (step.kind == Step::Kind::go) motion.move_to(step.to);
     if (step.kind == Step::Kind::stylus && s.stylus.indexed) motion.index_head();
     if (step.kind != Step::Kind::touch) continue;
-    motion.settings().measuring_mm_s = s.speed_mm_s;
-    motion.settings().measuring_mm_s2 = s.acceleration_mm_s2;
+    motion.settings().measuring_mm_s = moving(s.speed_mm_s, usual.measuring_mm_s);
+    motion.settings().measuring_mm_s2 = moving(s.acceleration_mm_s2, usual.measuring_mm_s2);
     motion.touch(s.point + s.stylus.radius_mm * s.normal, s.normal);
   }
   return motion.time_s() / 60 + placed * kPlacing_min;
