@@ -217,6 +217,9 @@ class Values(harness.Case):
         self.assertNotEqual(self.diagnosis("bad.dmo", "--program", program)["verdict"], "no_mismatch")
         self.refused("E0555", "diagnose", "good.dmo")
         self.refused("E0557", "diagnose", self.write("empty.dmo", "DMISOT/'nothing',4.0\nENDFIL\n"), "--program", program)
+        for label in (" ", ",", "()"):   # not one letter
+            nameless = (self.folder / "good.dmo").read_text().replace("TA(LEN)", f"TA({label})")
+            self.assertRegex(self.abbe("diagnose", self.write("nameless.dmo", nameless), "--program", program, code=2).stderr, "error E")
 
     def test_a_result_file_that_is_cut_off_is_refused_or_told(self):
         program = harness.ROOT / "examples/programs/prismatic_part.dmi"

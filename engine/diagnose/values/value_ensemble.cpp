@@ -43,7 +43,7 @@ const Samples& sample_of(const ValueRecording& recording, const ValueRow& row, c
     const std::vector<std::string> of = labels_of(plan, s.characteristic);
     const std::string& label = *names.insert(fmt::format("{}", fmt::join(of, " "))).first;
     if (row.ordinal > 0) {
-      if (labels.back() == of.back() && ++met == row.ordinal) found.push_back(&s);
+      if (!labels.empty() && labels.back() == of.back() && ++met == row.ordinal) found.push_back(&s);
     } else if (!labels.empty() && means(labels, of)) {
       meant.insert(label);
       if (++met == row.occurrence) found.push_back(&s);
