@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <string_view>
 #include <tuple>
 
 #include "engine/base/letter_case.hpp"
@@ -44,6 +45,19 @@ void continue_clock_of(const Recording& before, Recording& next, const std::stri
         fmt::format("its times overlap those of the recording ahead of it; they count as {:.0f} s later", *later_s));
 }
 
+/// A number that counts on from those of the files ahead of it.
+int counted_on(int ahead, int number, std::string_view column, const std::string& file) {
+  constexpr long long kMost = 2'000'000'000;  // a second measurement, too, counts on from here
+  const long long sum = static_cast<long long>(ahead) + number;
+  if (sum <= kMost) return static_cast<int>(sum);
+  throw UserError(diagnostic(
+      Code::E0707,
+      fmt::format(
+          "'{}': its numbers in the column '{}' count on from those of the files ahead of it, and are too large for that",
+          file, column),
+      "number from 1, all files in one sequence"));
+}
+
 /// Whoever forgets to number the repeats has the same run in every file. The same touch with another value is
 /// a further run, else the machine would seem to have changed in the middle of one.
 void continue_runs(const Recording& before, Recording& next, const std::string& file, ToldOnce& told) {
@@ -58,7 +72,7 @@ void continue_runs(const Recording& before, Recording& next, const std::string& 
   const auto in_run_order = [](const RecordingRow& a, const RecordingRow& b) { return a.run < b.run; };
   const int last = std::max_element(before.rows.begin(), before.rows.end(), in_run_order)->run;
   const int first = std::min_element(next.rows.begin(), next.rows.end(), in_run_order)->run;
-  for (RecordingRow& row : next.rows) row.run += last + 1 - first;
+  for (RecordingRow& row : next.rows) row.run = counted_on(last + 1 - first, row.run, "run", file);
   told.add(file,
            fmt::format("it repeats touches of the recording ahead of it under the same run; its runs are counted on: "
                        "run {} counts as {}",
@@ -67,15 +81,15 @@ void continue_runs(const Recording& before, Recording& next, const std::string& 
 
 /// Between two files the styli may have been qualified anew, unless all say by the column `qualification` that they were
 /// not.
-void doubt_qualifications(std::vector<Recording>& files) {
+void doubt_qualifications(std::vector<Recording>& files, const std::vector<SourceFile>& sources) {
   const auto unsaid = [](const RecordingRow& row) { return !row.qualification; };
   const auto says = [&](const Recording& r) { return std::none_of(r.rows.begin(), r.rows.end(), unsaid); };
   if (files.size() < 2 || std::all_of(files.begin(), files.end(), says)) return;
   int before = 0;
-  for (Recording& r : files) {
+  for (std::size_t k = 0; k < files.size(); ++k) {
     int last = before;
-    for (RecordingRow& row : r.rows) {
-      row.qualification = before + row.qualification.value_or(1);
+    for (RecordingRow& row : files[k].rows) {
+      row.qualification = counted_on(before, row.qualification.value_or(1), "qualification", sources[k].name());
       last = std::max(last, *row.qualification);
     }
     before = last;
@@ -158,7 +172,7 @@ Recording joined(const std::vector<SourceFile>& files, Positions positions, std:
     refuse_unlike(read.front(), files.front().name(), read.back(), file.name());
     for (std::size_t k = 0; k + 1 < read.size(); ++k) refuse_copy(read[k], files[k].name(), read.back(), file.name());
   }
-  doubt_qualifications(read);
+  doubt_qualifications(read, files);
   Recording all = std::move(read.front());
   for (const SourceFile& file : files) all.files.push_back(file.name());
   ToldOnce later, further_runs;

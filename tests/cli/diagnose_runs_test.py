@@ -60,6 +60,23 @@ class DiagnoseRuns(harness.Case):
         self.assertEqual(said.count("N0708"), 2, said)
         self.assertEqual(said.count("so it is with 2 files more"), 2, said)
 
+    def test_numbers_that_are_too_large_to_count_on_are_told(self):
+        first = self.folder / self.record(1)
+
+        def copies(column, **numbers):
+            """Repeats of the first recording, in so many files that their numbers add up to more than a computer's integers hold."""
+            for k in range(23):
+                def repeat(row):
+                    return row | {"x": f"{float(row['x']) + 1e-5 * k:.7f}"} | {name: str(number(k, row)) for name, number in numbers.items()}
+
+                yield self.changed(first, repeat, f"{column}{k}.csv")
+
+        large = {"run": {"run": lambda k, row: 1 if row["feature"].endswith("_9") else 10**8}, "qualification": {"run": lambda k, _: k + 1, "qualification": lambda k, _: 10**8 if k else ""}}
+        for column, numbers in large.items():
+            with self.subTest(column=column):
+                said = self.refused("E0707", "diagnose", *copies(column, **numbers), "--machine", MACHINE, "--design-only")
+                self.assertIn(f"its numbers in the column '{column}'", said)
+
     def test_a_part_that_was_moved_between_runs_of_one_setup_is_thought_of(self):
         """Of what is new in a run its sentence says it, of a pattern what to do next; and nobody says it twice."""
         first, second = self.record(1, "--seed", 3), self.record(2, "--seed", 3)
