@@ -6,6 +6,7 @@
 #include "tests/fuzz/exercise.hpp"
 #include "tests/fuzz/faults.hpp"
 #include "tests/fuzz/programs.hpp"
+#include "tests/fuzz/recordings.hpp"
 
 int main(int argc, char** argv) {
   using namespace abbe::fuzz;
@@ -14,7 +15,8 @@ int main(int argc, char** argv) {
   const unsigned seed = argc > 2 ? static_cast<unsigned>(std::atoi(argv[2])) : 20261121;
   const int count = argc > 3 ? std::atoi(argv[3]) : 250;
   std::mt19937 random(seed);
-  int compiled = 0, ran = 0, total = 0;
+  int compiled = 0, ran = 0, total = 0, read = 0;
+  std::mt19937 of_recordings(seed);  // of their own: a seed names the same programs with them and without
   const auto take = [&](const std::string& text) {
     const Outcome outcome = exercise(text);
     compiled += outcome.compiled ? 1 : 0;
@@ -28,6 +30,9 @@ int main(int argc, char** argv) {
     if (victim.size() < 20'000) take(damaged(victim, existing[random() % existing.size()], random));
     take(damaged(random_program(random), random_program(random), random));
   }
-  std::printf("%d texts: %d without errors, %d run\n", total, compiled, ran);
-  return total > count && compiled > total / 50 && ran > total / 20 ? 0 : 1;  // else it tests too little
+  for (int i = 0; i < 10 * count; ++i) read += exercise_recordings(of_recordings);
+  std::printf("%d texts: %d without errors, %d run; %d damaged recordings: %d read\n", total, compiled, ran, 30 * count,
+              read);
+  const bool enough = total > count && compiled > total / 50 && ran > total / 20 && read > count / 2;
+  return enough ? 0 : 1;  // else it tests too little
 }
