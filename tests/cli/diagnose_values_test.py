@@ -207,6 +207,16 @@ class Values(harness.Case):
         self.assertNotEqual(verdict, "no_mismatch")
         self.assertNotIn("W0726", codes)
 
+    def test_what_few_digits_hide_is_no_mismatch_and_not_said_to_be_seen(self):
+        """In steps of 10 um a length of 5 um too much is written as 10 too much. Zeros at the end may be left out."""
+        def rounded(long, text="500.00"):
+            rows = [f"LEN,{BLOCKS / f'{place}_L.dmi'},{'500.01' if place == long else text},500.0\n" for place in PLACES]
+            return self.diagnosis(self.write("rounded.csv", "# machine: coord3-mc16\ncharacteristic,program,value,reference\n" + "".join(rows)))
+        for said in (rounded("x1"), rounded("x1", "500")):
+            self.assertEqual(said["verdict"], "no_mismatch")
+            self.assertTrue(all(d["detect_um"] > 4 for d in said["smallest_detectable"] if d["detect"]), said["smallest_detectable"])
+        self.assertNotEqual(rounded("x1", "500.00000")["verdict"], "no_mismatch")
+
     def test_a_result_file_is_a_recording(self):
         program = BLOCKS / "x1_L.dmi"
         self.abbe("record", program, "-o", "touches.csv", "--dmo", "good.dmo", "--seed", 3)

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "engine/diagnose/values/value_signature.hpp"
@@ -11,6 +13,18 @@ namespace abbe::diagnose {
 namespace {
 
 constexpr int kHalf = 1000, kPerValue = 10, kMostValues = 500;
+
+/// The steps to which values of the kind of value `k`, lengths or angles, are rounded: those of the one with the most
+/// digits, since zeros at the end may be left out.
+double step_of(const ValueCase& c, std::size_t k) {
+  double step = 0;
+  for (std::size_t j = 0; j < c.ensemble.values.size(); ++j) {
+    const double digit = c.recording->rows[j].last_digit;
+    if (c.ensemble.values[j].angle == c.ensemble.values[k].angle && digit > 0)
+      step = step > 0 ? std::min(step, digit) : digit;
+  }
+  return step / c.ensemble.values[k].reported();
+}
 
 }  // namespace
 
@@ -27,19 +41,19 @@ std::vector<std::string> labels_of(const ValueCase& c) {
 int machines_for(Eigen::Index values) { return 2 * (kHalf + kPerValue * static_cast<int>(values)); }
 bool enough(const Matrix& simulated) { return simulated.rows() / 2 >= simulated.cols() + 2; }
 
-Judges judges_of(const Matrix& simulated, const Matrix& calibration, std::uint64_t seed) {
+Judges judges_of(const Matrix& simulated, const Matrix& recorded, std::uint64_t seed) {
   const Eigen::Index half = simulated.rows() / 2;
   Judges out;
-  out.judged = with_calibration(simulated.bottomRows(simulated.rows() - half), calibration, seed);
+  out.judged = as_recorded(simulated.bottomRows(simulated.rows() - half), recorded, seed);
   out.mean = simulated.topRows(half).colwise().mean();
   const Matrix centred = simulated.topRows(half).rowwise() - out.mean.transpose();
-  out.covariance = centred.transpose() * centred / double(half - 1) + calibration * calibration.transpose();
+  out.covariance = centred.transpose() * centred / double(half - 1) + recorded * recorded.transpose();
   out.covariance.diagonal().array() += kLeastOfValue_um * kLeastOfValue_um;
   return out;
 }
 
 ValueReference reference_of(const ValueCase& c) {
-  return {c.ensemble.values, *c.programs, *c.machine, *c.options, c.deviation, c.judges.covariance, c.calibration};
+  return {c.ensemble.values, *c.programs, *c.machine, *c.options, c.deviation, c.judges.covariance, c.recorded};
 }
 
 std::string program_of(const ValueCase& c, std::size_t value) {
@@ -57,16 +71,17 @@ ValueCase value_case_of(const ValueRecording& recording, const std::vector<Value
   ValueCase c;
   c.recording = &recording, c.programs = &programs, c.machine = &machine, c.options = &options;
   c.ensemble = value_ensemble(recording, programs, machine, options, machines_for(n));
-  c.deviation.resize(n), c.calibration.setZero(n, n);
+  c.deviation.resize(n), c.recorded.setZero(n, 2 * n);
   for (int k = 0; k < n; ++k) {
     const RecordedValue& v = c.ensemble.values[k];
-    c.deviation(k) = v.deviation, c.calibration(k, v.artefact) = v.calibration;
+    c.deviation(k) = v.deviation, c.recorded(k, v.artefact) = v.calibration;
+    c.recorded(k, n + k) = step_of(c, k) / std::sqrt(12.0);
   }
   if (!enough(c.ensemble.simulated))
     throw UserError(diagnostic(
         Code::E0553, fmt::format("{}: hardly any virtual machine reaches all of these values", recording.source.name()),
         "`abbe run` says where they stop"));
-  c.judges = judges_of(c.ensemble.simulated, c.calibration, options.seed);
+  c.judges = judges_of(c.ensemble.simulated, c.recorded, options.seed);
   add_value_patterns(labels_of(c), c.judges.covariance, c.ensemble.explanations);
   c.search.emplace(c.judges.mean, c.judges.covariance, c.ensemble.explanations);
   return c;

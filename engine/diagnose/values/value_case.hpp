@@ -13,8 +13,8 @@ namespace abbe::diagnose {
 /// Simulated machines that values are compared with.
 struct Judges {
   Vector mean;        ///< of the first half
-  Matrix covariance;  ///< of these, with that of the calibrations
-  Matrix judged;      ///< the second half, with errors of calibration
+  Matrix covariance;  ///< of these, with that of the calibrations and of rounding
+  Matrix judged;      ///< the second half, with errors of calibration and of rounding
 };
 
 /// Recorded values, and what they are judged by.
@@ -25,7 +25,8 @@ struct ValueCase {
   const DiagnoseOptions* options = nullptr;
   ValueEnsemble ensemble;
   Vector deviation;
-  Matrix calibration;  ///< one column for each artefact: a standard deviation of its calibration
+  Matrix recorded;  ///< one column for each artefact: a standard deviation of its calibration; then one for each value:
+                    ///< that of its rounding
   Judges judges;
   std::optional<ValueSearch> search;
 };
@@ -39,7 +40,7 @@ int machines_for(Eigen::Index values);
 /// Whether these machines (rows) are enough to judge their values.
 bool enough(const Matrix& simulated);
 /// `simulated`: machines x values, more than twice as many machines as values.
-Judges judges_of(const Matrix& simulated, const Matrix& calibration, std::uint64_t seed);
+Judges judges_of(const Matrix& simulated, const Matrix& recorded, std::uint64_t seed);
 
 ValueReference reference_of(const ValueCase&);
 

@@ -14,7 +14,8 @@ void doubt_calibrations(const ValueCase& c, std::vector<Diagnostic>& messages) {
   constexpr double kTimes = 3;
   std::vector<double> times;
   for (Eigen::Index k = 0; k < c.deviation.size(); ++k) {
-    const double calibrated = c.calibration.row(k).norm(), of_both = std::sqrt(c.judges.covariance(k, k));
+    const double calibrated = c.ensemble.values[static_cast<std::size_t>(k)].calibration,
+                 of_both = std::sqrt(c.judges.covariance(k, k));
     times.push_back(
         calibrated /
         std::sqrt(std::max(of_both * of_both - calibrated * calibrated, kLeastOfValue_um * kLeastOfValue_um)));

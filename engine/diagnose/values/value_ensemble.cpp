@@ -238,12 +238,12 @@ Matrix simulated_values(const std::vector<RecordedValue>& values, const std::vec
   return out;
 }
 
-Matrix with_calibration(Matrix m, const Matrix& calibration, std::uint64_t seed) {
+Matrix as_recorded(Matrix m, const Matrix& recorded, std::uint64_t seed) {
   constexpr std::uint32_t stream = stream_of("diagnose.values.calibration");
   for (Eigen::Index i = 0; i < m.rows(); ++i)
-    for (Eigen::Index k = 0; k < calibration.cols(); ++k)
+    for (Eigen::Index k = 0; k < recorded.cols(); ++k)
       m.row(i) +=
-          calibration.col(k).transpose() *
+          recorded.col(k).transpose() *
           normal_quantile(
               uniform_pair({seed, static_cast<std::uint32_t>(i), stream, static_cast<std::uint32_t>(k), 0, 0}).a);
   return m;

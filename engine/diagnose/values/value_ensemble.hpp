@@ -40,8 +40,8 @@ Matrix simulated_values(const std::vector<RecordedValue>&, const std::vector<Val
                         const VirtualMachines&, const DiagnoseOptions&, const Contributors& = {});
 /// The machines that reach every value.
 Matrix complete_rows(const Matrix&);
-/// Simulated machines (rows) as they would be recorded: each with its own errors of calibration, of which every column is
-/// a standard deviation.
-Matrix with_calibration(Matrix machines, const Matrix& calibration, std::uint64_t seed);
+/// Simulated machines (rows) as they would be recorded: each with its own errors of calibration and of rounding, of which
+/// every column of `recorded` is a standard deviation.
+Matrix as_recorded(Matrix machines, const Matrix& recorded, std::uint64_t seed);
 
 }  // namespace abbe::diagnose

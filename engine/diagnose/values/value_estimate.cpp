@@ -36,8 +36,8 @@ Vector possible_sizes(const Effect& effect, const Variant& variant, Vector sizes
 /// Of few machines: what their number leaves open of the correlations is that of machines without the effect.
 Matrix covariance_of(const Matrix& machines, const ValueReference& b) {
   const Matrix centred = machines.rowwise() - machines.colwise().mean();
-  const Matrix calibrated = b.calibration * b.calibration.transpose();
-  const Matrix seen = centred.transpose() * centred / double(machines.rows() - 1) + calibrated;
+  const Matrix recorded = b.recorded * b.recorded.transpose();
+  const Matrix seen = centred.transpose() * centred / double(machines.rows() - 1) + recorded;
   const Vector by =
       (seen.diagonal().array() + kLeastOfValue_um * kLeastOfValue_um).sqrt() / b.covariance.diagonal().array().sqrt();
   const double share = double(machines.rows()) / double(machines.rows() + machines.cols());

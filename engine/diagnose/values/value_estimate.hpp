@@ -27,9 +27,9 @@ struct ValueReference {
   const std::vector<ValueProgram>& programs;
   const Machine& machine;
   const DiagnoseOptions& options;
-  const Vector& deviation;    ///< of the recording
-  const Matrix& covariance;   ///< of the values of machines of the specification, with calibration
-  const Matrix& calibration;  ///< a column for each artefact: a standard deviation
+  const Vector& deviation;   ///< of the recording
+  const Matrix& covariance;  ///< of the values of machines of the specification, as they are recorded
+  const Matrix& recorded;    ///< a column for each error of calibration and of rounding: a standard deviation
 };
 
 /// Makes the likeliest variants of the catalogue linear near the sizes that fit best (Gauss-Newton steps weighted by the

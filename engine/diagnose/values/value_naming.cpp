@@ -38,7 +38,7 @@ double adequacy_of(const ValueCase& c, const Closer& closer, const Finding& name
   const Matrix simulated =
       complete_rows(simulated_values(c.ensemble.values, *c.programs, planted, machines, *c.options));
   if (!enough(simulated)) return left_by_chance(c, closer, name);
-  const Judges judges = judges_of(simulated, c.calibration, c.options->seed);
+  const Judges judges = judges_of(simulated, c.recorded, c.options->seed);
   return chance_of(c, ValueSearch(judges.mean, judges.covariance, c.search->explanations(), variant.signature),
                    judges.judged);
 }

@@ -83,7 +83,7 @@ class Detection {
     const Matrix reached =
         complete_rows(simulated_values(reference_.values, reference_.programs, with, machines_, options_));
     const std::vector<double> statistics =
-        statistics_of(search_, with_calibration(reached, reference_.calibration, options_.seed));
+        statistics_of(search_, as_recorded(reached, reference_.recorded, options_.seed));
     const auto alarms =
         std::count_if(statistics.begin(), statistics.end(), [&](double statistic) { return statistic > alarm_; });
     return double(alarms) / std::max(1.0, double(statistics.size()));
