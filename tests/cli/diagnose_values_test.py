@@ -1,6 +1,7 @@
 """abbe diagnose of values of characteristics: CSV tables and DMIS result files."""
 import itertools
 import json
+import re
 
 import harness
 
@@ -216,6 +217,15 @@ class Values(harness.Case):
             self.assertEqual(said["verdict"], "no_mismatch")
             self.assertTrue(all(d["detect_um"] > 4 for d in said["smallest_detectable"] if d["detect"]), said["smallest_detectable"])
         self.assertNotEqual(rounded("x1", "500.00000")["verdict"], "no_mismatch")
+
+    def test_a_name_that_does_not_predict_the_other_values_better_is_doubted(self):
+        """One wrong value, and whatever of many sizes fits it: a form of the part was told with 0.57."""
+        program = harness.ROOT / "examples/programs/prismatic_part.dmi"
+        self.abbe("record", program, "-o", "touches.csv", "--dmo", "good.dmo")
+        values = self.write("bad.dmo", re.sub(r"TOL/PERP, 0\.00", "TOL/PERP, 0.02", (self.folder / "good.dmo").read_text()))
+        said = self.diagnosis(values, "--program", program)
+        self.assertGreater(said["improvement"]["chi2_per_dof"]["after"], said["improvement"]["chi2_per_dof"]["before"])
+        self.assertEqual([e["members"] for e in said["effects"] if e["probability"] > 0.5], [])
 
     def test_a_result_file_is_a_recording(self):
         program = BLOCKS / "x1_L.dmi"

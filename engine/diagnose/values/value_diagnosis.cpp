@@ -8,7 +8,6 @@
 #include "engine/diagnose/explanations/catalogue.hpp"
 #include "engine/diagnose/quantile.hpp"
 #include "engine/diagnose/values/value_checks.hpp"
-#include "engine/diagnose/values/value_improvement.hpp"
 #include "engine/diagnose/values/value_naming.hpp"
 #include "engine/diagnose/values/value_power.hpp"
 
@@ -77,8 +76,7 @@ Diagnosis diagnose_values(const ValueRecording& recording, const std::vector<Val
   out.p_value = tail_probability(c.search->evidence(c.deviation).statistic, in_order);
   if (out.p_value > kAlarm) return out;
   begins(options.progress, "sizes of what was found");
-  const Closer closer(c);
-  show_improvement(c, closer, tell_explanation(c, closer, out), out);
+  tell_explanation(c, Closer(c), out);
   const auto worst =
       std::max_element(out.values.begin(), out.values.end(),
                        [](const JudgedValue& a, const JudgedValue& b) { return std::abs(a.z) < std::abs(b.z); });

@@ -8,6 +8,7 @@
 #include "engine/diagnose/findings/members.hpp"
 #include "engine/diagnose/findings/search.hpp"
 #include "engine/diagnose/quantile.hpp"
+#include "engine/diagnose/values/value_improvement.hpp"
 #include "engine/diagnose/values/value_signature.hpp"
 #include "engine/diagnose/values/value_telling.hpp"
 
@@ -90,13 +91,14 @@ std::optional<Finding> one_characteristic(const ValueCase& c, const Closer& clos
 
 }  // namespace
 
-Finding tell_explanation(const ValueCase& c, const Closer& closer, Diagnosis& out) {
+void tell_explanation(const ValueCase& c, const Closer& closer, Diagnosis& out) {
   const Evidence evidence = closer.search.evidence(c.deviation);
   auto [name, pattern] = possible_name(c, closer, evidence);
   const double adequacy = adequacy_of(c, closer, name);
   const bool doubted = adequacy < kInadequate && leaves_less(left_by_chance(c, closer, pattern), adequacy);
   const bool named = likelier(name, pattern, doubted ? kNamedInDoubt : kNamed);
   if (!named) pattern = one_characteristic(c, closer, evidence).value_or(pattern);
+  show_improvement(c, closer, named ? name : pattern, out);
   if (named)
     tell_name(c, closer, name, adequacy, out);
   else
@@ -104,7 +106,6 @@ Finding tell_explanation(const ValueCase& c, const Closer& closer, Diagnosis& ou
   if (!named && name.explanation >= 0 && closer.explanation(pattern).shape != kOneCharacteristic)
     out.unexplained->sentence +=
         fmt::format(" Of the catalogue, {} comes nearest.", closer.explanation(name).effect->title);
-  return named ? name : pattern;
 }
 
 }  // namespace abbe::diagnose

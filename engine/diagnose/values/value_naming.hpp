@@ -6,7 +6,7 @@
 namespace abbe::diagnose {
 
 /// Tells a set of names with a possible size, where it is likelier than a pattern and leaves no more than chance does; else
-/// a pattern. What is told is returned.
-Finding tell_explanation(const ValueCase&, const Closer&, Diagnosis&);
+/// a pattern. Beside it stands whether that predicts values that it was not fitted to.
+void tell_explanation(const ValueCase&, const Closer&, Diagnosis&);
 
 }  // namespace abbe::diagnose

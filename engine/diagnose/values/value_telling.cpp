@@ -58,6 +58,11 @@ std::vector<DiagnosedMember> members_of(const ValueCase& c, const Closer& closer
   return out;
 }
 
+/// As predicts_better() of touches; but rms is that of the long lengths, so values lie closer beside their own scatter.
+bool predicts_values_better(const std::optional<Improvement>& i) {
+  return i && i->log_score_gain > i->se && i->chi2_per_dof_after <= i->chi2_per_dof_before;
+}
+
 /// What would tell the members of a set apart, where values do not.
 std::string to_tell_apart(const Explanations& all, const Finding& f) {
   std::string out = "These values do not tell them apart. What would:";
@@ -104,7 +109,9 @@ void tell_name(const ValueCase& c, const Closer& closer, const Finding& f, doubl
   const bool only_untold = closer.explanation(f).missing != 0;
   const std::string in_file =
       belief_in_first(all, f) < kCarried ? kNotCarried : carry(*c.machine, effect, e.parameters, out);
-  e.probability = believed(f.probability, adequacy < kInadequate || !all_plausible(e.parameters) || only_untold);
+  e.probability = believed(f.probability,
+                           adequacy < kInadequate || !all_plausible(e.parameters) || only_untold ||
+                               !predicts_values_better(out.improvement));
   e.sentence = explanation_sentence(titles, e.parameters, "a file of values", {}, e.probability < kTold);
   if (untold != 0) {
     const std::string columns = fmt::format("{}", fmt::join(columns_of(untold), ", "));
