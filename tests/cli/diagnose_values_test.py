@@ -271,6 +271,15 @@ class Values(harness.Case):
         coarse = self.diagnosis(table(2), "--program", program)   # a machine in order reports the same with so few digits
         self.assertNotEqual(coarse["verdict"], "cannot_judge")
 
+    def test_what_rounding_of_the_program_leaves_of_a_zone_tells_no_unit(self):
+        """A roundness that happened to be a thousand times that was refused as one in micrometres."""
+        text = (harness.ROOT / "examples/programs/prismatic_part.dmi").read_text()
+        program = self.write("round.dmi", text.replace("OUTPUT/FA(BORE1),TA(DIA1),", "T(ROUND)=TOL/CIRLTY,0.01\nOUTPUT/FA(BORE1),TA(ROUND),TA(DIA1),"))
+        [left] = [c["reference"] for c in self.run_json(program, "--machines", 20)["characteristics"] if c["tolerance"] == "ROUND"]
+        self.assertTrue(1e-8 < left < 1e-5, left)
+        values = self.write("values.csv", f"characteristic,value\nROUND,{1000 * left:.9f}\nPITCH,80.0002\n")
+        self.assertIn("2 values are", self.abbe("diagnose", values, "--program", program).stdout)
+
     def test_of_several_evaluations_each_row_says_which(self):
         twice = harness.LENGTH.replace("OUTPUT/FA(A),FA(B),TA(LEN)", "DECL/INTGR,N\nDO/N,1,2\nOUTPUT/FA(A),FA(B),TA(LEN)\nENDDO")
         values = self.write("values.csv", "characteristic,value,occurrence\nLEN,100.0,1\nLEN,100.0,2\n")

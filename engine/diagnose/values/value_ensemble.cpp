@@ -124,6 +124,8 @@ class EnsembleRuns {
  private:
   /// A value, or a calibrated one, that is what the program measures in another unit.
   void refuse_unit(const ValueRow& row, double measured_mm) const {
+    constexpr double kLeast_mm = 1e-3;  // less, of a form or a position, is rounding of what the program says
+    if (std::abs(measured_mm) < kLeast_mm) return;
     for (const std::optional<double>& written : {std::optional(row.value), row.reference})
       if (const auto unit = written ? foreign_unit(*written, measured_mm) : std::nullopt)
         throw UserError(
