@@ -23,14 +23,22 @@ std::optional<double> scaled(std::optional<double> value, double factor) {
   return value ? std::optional(*value * factor) : std::nullopt;
 }
 
-/// The values, moved by what a material condition makes the upper limit of a machine differ from
-/// that of the error-free one: each conforms to the common limits just when its own value did to
-/// its own.
-std::vector<double> against_common_limits(const Samples& samples) {
-  std::vector<double> values = samples.value;
-  for (std::size_t i = 0; i < samples.own_limits.size(); ++i)
-    values[i] -= samples.own_limits[i].upper.value() - samples.limits.upper.value();
-  return values;
+/// The values, moved by what the limits of a machine differ from those of the error-free one: each conforms to
+/// the common limits just when its own value did to its own.
+struct Judged {
+  std::vector<double> by_lower, by_upper;
+};
+
+Judged against_common_limits(const Samples& samples) {
+  const auto apart = [](std::optional<double> own, std::optional<double> common) {
+    return common ? own.value_or(0) - *common : 0;  // what is none of a zone or a distance is 0
+  };
+  Judged judged{samples.value, samples.value};
+  for (std::size_t i = 0; i < samples.own_limits.size(); ++i) {
+    judged.by_lower[i] -= apart(samples.own_limits[i].lower, samples.limits.lower);
+    judged.by_upper[i] -= apart(samples.own_limits[i].upper, samples.limits.upper);
+  }
+  return judged;
 }
 
 CharacteristicReport::CoverageInterval interval_of(const Samples& samples, double factor, double coverage) {
@@ -40,12 +48,13 @@ CharacteristicReport::CoverageInterval interval_of(const Samples& samples, doubl
   return {coverage, s.symmetric, s.shortest};
 }
 
-/// Decides on the value of the error-free machine, in the unit of the report. `values` are judged
-/// against the common limits. A zone has no lower limit, but begins at 0.
-CharacteristicReport::Decision decision_on(const CharacteristicReport& report, const std::vector<double>& values,
-                                           double factor) {
-  std::vector<double> errors = values;
-  for (double& e : errors) e = e * factor - *report.reference;
+/// Decides on the value of the error-free machine, in the unit of the report. A zone has no lower limit, but begins
+/// at 0.
+CharacteristicReport::Decision decision_on(const CharacteristicReport& report, const Judged& judged, double factor) {
+  Judged to_errors = judged;
+  for (std::vector<double>* errors : {&to_errors.by_lower, &to_errors.by_upper})
+    for (double& e : *errors) e = e * factor - *report.reference;
+  const JudgedSample errors{to_errors.by_lower, to_errors.by_upper};
   const double upper = *report.upper, begin = report.lower.value_or(0);
   const Interval& interval = report.summary.symmetric;
   CharacteristicReport::Decision d;
@@ -92,8 +101,9 @@ CharacteristicReport characteristic_report(const plan::Plan& plan, const Samples
   report.lower = scaled(samples.limits.lower, factor);
   report.upper = scaled(samples.limits.upper, factor);
   if (report.varies && (report.lower || report.upper)) {
-    const std::vector<double> judged = against_common_limits(samples);
-    report.conformance_probability = conformance_probability(judged, samples.limits.lower, samples.limits.upper);
+    const Judged judged = against_common_limits(samples);
+    report.conformance_probability =
+        conformance_probability({judged.by_lower, judged.by_upper}, samples.limits.lower, samples.limits.upper);
     if (report.upper && report.reference) report.decision = decision_on(report, judged, factor);
   }
   report.evaluated = static_cast<int>(samples.value.size());

@@ -28,7 +28,7 @@ struct BlockResult {
   };
   struct LaneResult {
     std::vector<Kept> values;
-    std::vector<ToleranceLimits> own_limits;  ///< in the same order, of characteristics with material conditions
+    std::vector<ToleranceLimits> own_limits;  ///< in the same order, of characteristics that have them
     std::optional<LaneTrap> trap;
   };
   std::vector<LaneResult> lanes;
@@ -38,12 +38,20 @@ struct BlockResult {
   EffectActivities activities;
 };
 
+/// Whether each machine may have limits of its own: by material conditions, or because the limits or the nominals that
+/// they count from are computed from what it measured.
+bool has_own_limits(const plan::Plan& plan, plan::CharacteristicId id) {
+  const plan::CharacteristicDef& c = plan[id];
+  return !c.widening.empty() || !plan[c.tolerance].varying.empty() ||
+      std::any_of(c.features.begin(), c.features.end(), [&](plan::FeatureId f) { return !plan[f].varying.empty(); });
+}
+
 BlockResult::LaneResult kept(const Lane& lane, const plan::Plan& plan) {
   BlockResult::LaneResult out;
   out.values.reserve(lane.values.size());
   for (const Value& v : lane.values) {
     out.values.push_back({v.characteristic, v.visit, v.value});
-    if (!plan[v.characteristic].widening.empty()) out.own_limits.push_back(v.limits);
+    if (has_own_limits(plan, v.characteristic)) out.own_limits.push_back(v.limits);
   }
   if (!lane.trap.reason.empty()) out.trap = lane.trap;
   return out;
@@ -156,11 +164,11 @@ RunResult run_plan(const plan::Plan& plan, const Machine& machine, const Virtual
     for (BlockResult::LaneResult& lane : block.lanes) {
       auto own_limits = lane.own_limits.begin();
       for (const BlockResult::Kept& v : lane.values) {
-        const bool widened = !plan[v.characteristic].widening.empty();
-        const auto limits = widened ? own_limits++ : own_limits;
+        const bool own = has_own_limits(plan, v.characteristic);
+        const auto limits = own ? own_limits++ : own_limits;
         Samples& samples = collected.of(v.key(), block.elsewhere);
         samples.value.push_back(v.value);
-        if (widened) samples.own_limits.push_back(*limits);
+        if (own) samples.own_limits.push_back(*limits);
         samples.machine.push_back(machine_number);
       }
       if (lane.trap)

@@ -74,7 +74,8 @@ struct Samples {
   ToleranceLimits limits;              ///< on the error-free machine
   std::vector<double> value;           ///< one per machine that reached it, in machine order
   std::vector<std::uint32_t> machine;  ///< position of that machine among those run: 0, 1, 2, ...
-  /// one per value where material conditions give every machine limits of its own, else none
+  /// one per value where every machine has limits of its own (material conditions, limits that are computed from
+  /// what it measured), else none
   std::vector<ToleranceLimits> own_limits;
 };
 

@@ -13,18 +13,22 @@
 // have p+ = p-. The rejection zone of the standard lies outside the limits: errors much larger than a
 // tolerance prove nothing of a value inside it.
 //
-// The values that conform keep a guard band g from both limits. A value y conforms with +e when P n
-// errors in a row, in ascending order e_(j+1) ... e_(j+m), fit between lower - y and upper - y. Of all
-// rows that are no longer than the tolerance, the first allows the largest y, upper - e_(j+m), and the
-// last the smallest, lower - e_(k+1); with -e it is the other way round. So
-//   g = max(e_(j+m), -e_(k+1))
+// Where the limits err too (a material condition, limits that a program computes from what it measures), the
+// error counts by which a value comes nearer to its limit: e less what that limit errs, which of the lower limit may
+// be another one than of the upper.
+//
+// The values that conform keep a guard band g from both limits, the least distance from a limit at which a value
+// conforms, with either sign of the errors. The value at a distance d from the upper limit conforms with +e
+// as long as e <= d by the upper limit, and d <= upper - lower + e by the lower: of the intervals of all errors P n
+// must hold d. Likewise at the lower limit.
 // With limits far apart that is the larger of the P-points of e and of -e: of normal errors 1.645 u.
 // Nearer limits cut off both tails of the errors; g rises to 1.960 u, where a single value conforms.
 #pragma once
 
 #include <optional>
-#include <span>
 #include <string_view>
+
+#include "engine/stats/summary.hpp"
 
 namespace abbe {
 
@@ -44,11 +48,11 @@ constexpr std::string_view name(Conformity conformity) {
 }
 
 /// On the value `y`. `errors` must not be empty; a missing limit does not bound.
-Conformity decide(double y, std::span<const double> errors, std::optional<double> lower, std::optional<double> upper,
+Conformity decide(double y, const JudgedSample& errors, std::optional<double> lower, std::optional<double> upper,
                   double probability = kProvenProbability);
 
 /// g, never negative; none when no value conforms.
-std::optional<double> guard_band(std::span<const double> errors, std::optional<double> lower,
-                                 std::optional<double> upper, double probability = kProvenProbability);
+std::optional<double> guard_band(const JudgedSample& errors, std::optional<double> lower, std::optional<double> upper,
+                                 double probability = kProvenProbability);
 
 }  // namespace abbe

@@ -117,11 +117,12 @@ Summary summarize(std::span<const double> sample, double coverage) {
   return s;
 }
 
-double conformance_probability(std::span<const double> sample, std::optional<double> lower,
-                               std::optional<double> upper) {
-  ABBE_CHECK(!sample.empty());
-  const auto inside = [&](double v) { return (!lower || v >= *lower) && (!upper || v <= *upper); };
-  return static_cast<double>(std::count_if(sample.begin(), sample.end(), inside)) / static_cast<double>(sample.size());
+double conformance_probability(const JudgedSample& sample, std::optional<double> lower, std::optional<double> upper) {
+  ABBE_CHECK(sample.size() > 0 && sample.by_upper.size() == sample.size());
+  std::size_t inside = 0;
+  for (std::size_t i = 0; i < sample.size(); ++i)
+    if ((!lower || sample.by_lower[i] >= *lower) && (!upper || sample.by_upper[i] <= *upper)) ++inside;
+  return static_cast<double>(inside) / static_cast<double>(sample.size());
 }
 
 double numerical_tolerance(double u, int digits) {

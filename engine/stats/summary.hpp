@@ -16,6 +16,7 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace abbe {
 
@@ -38,10 +39,19 @@ struct Summary {
 /// interval is taken.
 Summary summarize(std::span<const double> sample, double coverage = 0.95);
 
+/// A sample as each of two limits judges it: twice the same, but where a limit errs as well. What it errs has then been
+/// taken away from the value, and both are judged together.
+struct JudgedSample {
+  std::span<const double> by_lower, by_upper;  ///< as many, in the same order
+
+  JudgedSample(const std::vector<double>& sample) : by_lower(sample), by_upper(sample) {}  // NOLINT: any sample is one
+  JudgedSample(const std::vector<double>& lower, const std::vector<double>& upper) : by_lower(lower), by_upper(upper) {}
+  std::size_t size() const { return by_lower.size(); }
+};
+
 /// Share of the sample inside the limits, limits included (JCGM 106, no normality assumed). A
 /// missing limit does not bound. `sample` must not be empty.
-double conformance_probability(std::span<const double> sample, std::optional<double> lower,
-                               std::optional<double> upper);
+double conformance_probability(const JudgedSample& sample, std::optional<double> lower, std::optional<double> upper);
 
 /// JCGM 101 7.9.2: u written as c * 10^l with an integer c of `digits` digits has the tolerance
 /// 10^l / 2. 0 when u is 0.

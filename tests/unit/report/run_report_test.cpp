@@ -83,6 +83,18 @@ TEST_CASE("where every machine has limits of its own, the decision goes by them"
   CHECK(decision().guard_band.value() < 1e-12);
 }
 
+TEST_CASE("each limit of a machine judges by itself") {
+  RunResult run = run_of({samples(0, 0, {-1e-3, 1e-3}, ramp(0, 1e-6))}, 1000);  // to either side by 499.5e-6
+  const auto conforming = [&] {
+    return *characteristic_reports(length_and_angle(), run, {}).at(0).conformance_probability;
+  };
+  CHECK(conforming() == 1);
+  for (std::size_t i = 0; i < 1000; ++i) run.samples[0].own_limits.push_back({-1e-3, i < 100 ? -1e-3 : 1e-3});
+  CHECK(conforming() == 0.9);
+  for (std::size_t i = 0; i < 1000; ++i) run.samples[0].own_limits[i].lower = i < 300 ? 1e-3 : -1e-3;
+  CHECK(conforming() == 0.7);
+}
+
 TEST_CASE("angles leave in degrees") {
   const RunResult run =
       run_of({samples(1, 90 * kDegree, {std::nullopt, 91 * kDegree}, ramp(90 * kDegree, 1e-3 * kDegree))}, 1000);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <vector>
 
 #include "draws.hpp"
@@ -110,6 +111,41 @@ TEST_CASE("an error that is the same everywhere is a guard band") {
   CHECK(decide(0.005, errors, 0.0, 0.01) == Conformity::conforms);
   CHECK(decide(0.003, errors, 0.0, 0.01) == Conformity::undecided);
   CHECK(decide(-0.005, errors, 0.0, 0.01) == Conformity::does_not_conform);
+}
+
+TEST_CASE("limits that err: the guard band is the least distance from a limit at which a value conforms") {
+  std::mt19937 random(7);
+  std::normal_distribution<double> normal;
+  const double upper = 4.5;
+  for (const double wider : {0.0, 0.3, 2.0})
+    for (const std::optional<double> lower : {std::optional(-20.0), std::optional(-4.5), std::optional<double>()}) {
+      CAPTURE(wider);
+      std::vector<double> by_lower, by_upper;
+      for (int i = 0; i < 400; ++i) {
+        const double value = normal(random), width = wider * normal(random);
+        by_lower.push_back(value + width), by_upper.push_back(value - width);
+      }
+      // Conformity can only begin where an error ends: each is tried, with either sign.
+      const auto least = [&](const std::vector<double>& errors, double towards, double limit, double sign) {
+        double found = 1e9;
+        for (const double e : errors) {
+          const double d = -towards * sign * e + 1e-12;
+          std::vector<double> low = by_lower, high = by_upper;
+          for (double& v : low) v = limit + towards * d + sign * v;
+          for (double& v : high) v = limit + towards * d + sign * v;
+          if (d < found && conformance_probability({low, high}, lower, upper) >= 0.95) found = d;
+        }
+        return found;
+      };
+      double expected = 0;
+      for (const double sign : {1.0, -1.0}) {
+        expected = std::max(expected, least(by_upper, -1, upper, sign));
+        if (lower) expected = std::max(expected, least(by_lower, 1, *lower, sign));
+      }
+      const std::optional<double> guard = guard_band({by_lower, by_upper}, lower, upper);
+      CHECK(guard.has_value() == (expected < (lower ? (upper - *lower) / 2 : 1e9)));
+      if (guard) CHECK(*guard == doctest::Approx(expected).epsilon(1e-9));
+    }
 }
 
 TEST_CASE("a share of exactly 95 % proves, and few errors count whole") {

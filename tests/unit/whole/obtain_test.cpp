@@ -130,6 +130,20 @@ TEST_CASE("a bonus counts from the nominal that each machine took from a measure
   }
 }
 
+TEST_CASE("limits that each machine computed from what it measured judge its own value") {
+  const std::string bore = "CIRCLE,INNER,CART,20,20,0,0,0,1,10\nMEAS/CIRCLE,F(";
+  const Ran ran("F(A)=FEAT/" + bore + "A),6\nENDMES\nT(FIRST)=TOL/DIAM,-1,1\nEVAL/FA(A),T(FIRST)\nX=OBTAIN/FA(A),11\n" +
+                    "T(OWN)=TOL/DIAM,X-10-0.001,X-10+0.002\nF(B)=FEAT/" + bore + "B),6\nENDMES\nEVAL/FA(B),T(OWN)\n",
+                20);
+  const Samples& own = ran.samples("OWN");
+  REQUIRE(own.own_limits.size() == 20);
+  CHECK(ran.samples("FIRST").own_limits.empty());
+  for (std::size_t i = 0; i < 20; ++i) {
+    CHECK(*own.own_limits[i].lower == Approx(ran.samples("FIRST").value[i] - 0.001).epsilon(1e-12));
+    CHECK(*own.own_limits[i].upper == Approx(ran.samples("FIRST").value[i] + 0.002).epsilon(1e-12));
+  }
+}
+
 TEST_CASE("a DO whose limit is measured has the turns of one that is known") {
   const std::string loop = "DECL/INTGR,N,LAST\nDECL/REAL,X,ZERO\nDECL/INTGR,I\n" +
       measured("A", "POINT,CART,0,0,0,0,0,1", {"0,0,0,0,0,1"}) + "ZERO=OBTAIN/FA(A),6\n";
