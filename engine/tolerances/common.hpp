@@ -39,11 +39,11 @@ inline ToleranceLimits written_limits(const Arguments& arguments) {
   return {nominal + arguments.number("lower"), nominal + arguments.number("upper")};
 }
 
-/// The same of a value that has no sign where its lower limit is 0: like a zone, it has none, because no true
-/// value lies below it.
+/// The same of a value that has no sign: like a zone, it has no lower limit of 0 or less, because no true value lies below
+/// it.
 inline ToleranceLimits limits_from_0(const Arguments& arguments) {
   ToleranceLimits limits = written_limits(arguments);
-  if (limits.lower == 0) limits.lower.reset();
+  if (limits.lower <= 0) limits.lower.reset();
   return limits;
 }
 

@@ -208,7 +208,9 @@ double nominal_distance(const Arguments& arguments, Shapes shapes, Elements nomi
 
 const char* any_features(const Arguments&, Shapes) { return nullptr; }
 
-ToleranceLimits distance_limits(const Arguments& arguments, Elements) { return limits_from_0(arguments); }
+ToleranceLimits distance_limits(const Arguments& arguments, Elements) {
+  return is_signed(arguments) ? written_limits(arguments) : limits_from_0(arguments);
+}
 
 double nominal_between(const Arguments& arguments, Shapes shapes, Elements nominal) {
   return nominal_distance(arguments, shapes, nominal, 0, 1);

@@ -66,9 +66,9 @@ class Figures(harness.Case):
         faces = "".join(f"F({l})=FEAT/PLANE,CART,100,0,0,1,0,0\nMEAS/PLANE,F({l}),3\n{touches}ENDMES\n" for l in ("E1", "E2"))
         self.write("unsigned.dmi", LENGTH.replace("ENDFIL\n", faces + "F(C)=FEAT/POINT,CART,100,0,0,1,0,0\nMEAS/POINT,F(C),1\nPTMEAS/CART,100,0,0,1,0,0\nENDMES\n"
                                                   "T(X)=TOL/DISTB,LIMIT,0,0.05,XAXIS\nT(P)=TOL/DISTB,NOMINL,0,0,0.05,PT2PT\nOUTPUT/FA(B),FA(C),TA(X),TA(P)\n"
-                                                  "T(ANGLE)=TOL/ANGLB,LIMIT,0,0.05\nOUTPUT/FA(E1),FA(E2),TA(ANGLE)\nENDFIL\n"))
+                                                  "T(ANGLE)=TOL/ANGLB,LIMIT,0,0.05\nT(AROUND)=TOL/ANGLB,NOMINL,0,-0.05,0.05\nOUTPUT/FA(E1),FA(E2),TA(ANGLE),TA(AROUND)\nENDFIL\n"))
         characteristics = self.run_json("unsigned.dmi", "--machines", 400)["characteristics"]
-        self.assertEqual([c["tolerance"] for c in characteristics], ["LEN", "X", "P", "ANGLE"])
+        self.assertEqual([c["tolerance"] for c in characteristics], ["LEN", "X", "P", "ANGLE", "AROUND"])
         for c in characteristics[1:]:
             self.assertEqual((c["tolerance"], c["tolerance_limits"]), (c["tolerance"], [None, 0.05]))
             self.assertEqual((c["conformance_probability"], c["decision"]["verdict"]), (1, "conforms"))

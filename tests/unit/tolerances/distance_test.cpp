@@ -47,7 +47,7 @@ TEST_CASE("DISTB with LIMIT takes its nominal from the nominal features") {
   CHECK(*e.limits().upper == 3.1);
 }
 
-TEST_CASE("A lower limit of 0 bounds no distance, as none is less") {
+TEST_CASE("A lower limit of 0 or less bounds no distance without a sign, as none is less") {
   const auto limits = [](const char* axis, double nominal, double lower) {
     return nominal_distance("DISTB", axis, nominal, lower, 0.1)
         .feature(Shape::point, at({10, 0, 0}))
@@ -58,9 +58,10 @@ TEST_CASE("A lower limit of 0 bounds no distance, as none is less") {
     CHECK_FALSE(limits(axis, 0, 0).lower);
     CHECK_FALSE(limits(axis, 25.4, -25.4).lower);
     CHECK(limits(axis, 0, 0.01).lower == 0.01);
-    CHECK(limits(axis, 0, -0.1).lower == -0.1);
     CHECK(limits(axis, 0, 0).upper == 0.1);
   }
+  CHECK(limits("XAXIS", 0, -0.1).lower == -0.1);  // there a negative limit asks for the sign
+  CHECK_FALSE(limits("PT2PT", 0, -0.1).lower);
 }
 
 TEST_CASE("A distance is signed where its limits allow negative values") {
