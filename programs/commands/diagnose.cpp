@@ -22,16 +22,17 @@ namespace {
 /// What is said before the answer is there. It is printed with the answer and stands in its reports, too.
 using Said = std::vector<Diagnostic>;
 
-/// The machine to compare with: what the command line names, else what the recording names, else the default.
+/// The machine to compare with: what the command line names, else the recording or its program, else the default.
 template <class Recorded>
 std::string machine_of(const DiagnoseCommandOptions& options, Said& said, Recorded recorded_machine) {
   if (options.known) return *options.known;
   if (options.machine) return *options.machine;
   if (const std::string recorded = recorded_machine(); !recorded.empty()) return recorded;
-  said.push_back(diagnostic(
-      Code::N0735,
-      fmt::format("neither the command nor the recording names a machine: {} is taken, the default", kDefaultMachine),
-      "name yours with --machine, or in a line '# machine: NAME' before the table"));
+  said.push_back(
+      diagnostic(Code::N0735,
+                 fmt::format("neither command nor recording nor program names a machine: {} is taken, the default",
+                             kDefaultMachine),
+                 "name yours with --machine, or in a line '# machine: NAME' before the table"));
   return kDefaultMachine;
 }
 
@@ -99,12 +100,15 @@ Answer of_touches(const DiagnoseCommandOptions& options, const Files& read, cons
   Recording recording =
       joined(read.recordings, options.design_only ? Positions::or_targets : Positions::recorded, said);
   const std::string file = fmt::format("{}", fmt::join(options.recordings, ", "));
-  const std::string name = machine_of(options, said, [&] {
-    return recorded_machine(abbe::said(recording.metadata, "machine").value_or(""), options.recordings);
-  });
   const std::optional<CompiledProgram> program =
       options.program ? std::optional(usable_program(*options.program)) : std::nullopt;
   if (program) said.insert(said.end(), program->messages.begin(), program->messages.end());
+  const std::string name = machine_of(options, said, [&] {
+    const std::string recorded =
+        recorded_machine(abbe::said(recording.metadata, "machine").value_or(""), options.recordings);
+    const bool program_says = program && program->compilation.directives.machine;
+    return recorded.empty() && program_says ? machine_name(*program, std::nullopt) : recorded;
+  });
   protect_files(options, read, program ? files_compiled(*program) : std::vector<std::string>{}, name);
   const std::string text = machine_text(name);
   Machine machine = parse_machine(name, text);

@@ -44,6 +44,10 @@ class Lines(Input):
             said = self.said(nameless, *options)
             self.assertEqual((self.codes(said)[0], said["machine"]), ("N0735", "coord3-mc16"))
         self.assertNotIn("N0735", self.codes(self.said(nameless, "--design-only", "--machine", "coord3-mc16")))
+        self.write("own.json", (harness.ROOT / "examples/machines/coord3-mc16.json").read_text().replace("coord3-mc16", "own"))
+        program = self.write("own.dmi", PROGRAM.read_text().replace("machine coord3-mc16", "machine own.json"))
+        of_program = self.said(nameless, "--design-only", "--program", program)
+        self.assertEqual((of_program["machine"], "N0735" in self.codes(of_program)), ("own", False))
 
     def test_a_table_of_values_without_characteristics(self):
         values = self.write("values.csv", "value,reference\n30,30\n")
