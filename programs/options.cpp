@@ -78,16 +78,33 @@ CLI::Option* add_number(CLI::App* command, const std::string& option, Value& val
       option, [&value, option, range](const std::string& text) { value = decimal<Number>(option, text, range); }, help);
 }
 
+/// What holds without an option that a directive of the program may set.
+std::string else_of_program(const std::string& otherwise) {
+  return " (default: what the program says, else " + otherwise + ")";
+}
+
 template <class Value>
 void add_seed(CLI::App* command, Value& seed, const std::string& help) {
-  add_number(command, "--seed", seed, {0, std::numeric_limits<std::uint64_t>::max()}, help + " (default 1)")
-      ->type_name("S");
+  add_number(command, "--seed", seed, {0, std::numeric_limits<std::uint64_t>::max()}, help)->type_name("S");
 }
 
 template <class Value>
 void add_machines(CLI::App* command, Value& machines, int least, const std::string& help) {
-  add_number(command, "--machines", machines, {least, std::numeric_limits<int>::max()}, help + " (default 1000)")
-      ->type_name("N");
+  add_number(command, "--machines", machines, {least, std::numeric_limits<int>::max()}, help)->type_name("N");
+}
+
+void add_machine_of_program(CLI::App* command, std::optional<std::string>& machine) {
+  command
+      ->add_option("--machine", machine,
+                   "machine file, or name of a shipped machine" + else_of_program(std::string(kDefaultMachine)))
+      ->type_name("M");
+}
+
+void add_workpiece_of_program(CLI::App* command, std::optional<std::string>& workpiece) {
+  command
+      ->add_option("--workpiece", workpiece,
+                   "workpiece file: true sizes, temperatures and form of the part" + else_of_program("none"))
+      ->type_name("W.json");
 }
 
 void add_threads(CLI::App* command, int& threads) {
@@ -98,10 +115,9 @@ void add_threads(CLI::App* command, int& threads) {
 }
 
 void add_settings(CLI::App* command, StudySettings& s) {
-  command->add_option("--workpiece", s.workpiece, "workpiece file: true sizes, temperatures and form of the part")
-      ->type_name("W.json");
-  add_machines(command, s.machines, 2, "how many virtual machines");
-  add_seed(command, s.seed, "of the random numbers");
+  add_workpiece_of_program(command, s.workpiece);
+  add_machines(command, s.machines, 2, "how many virtual machines" + else_of_program("1000"));
+  add_seed(command, s.seed, "of the random numbers" + else_of_program("1"));
   add_threads(command, s.threads);
 }
 
@@ -148,8 +164,7 @@ void add_run(CLI::App& app, Chosen& chosen) {
   const auto o = chosen_by(command, chosen, run_command);
   StudySettings& settings = o->request.settings;
   command->add_option("PROGRAM", o->request.program, "a DMIS program")->required();
-  command->add_option("--machine", settings.machine, "machine file, or name of a shipped machine (default coord3-mc16)")
-      ->type_name("M");
+  add_machine_of_program(command, settings.machine);
   add_settings(command, settings);
   add_number(command, "--digits", settings.digits, {1, 2},
              "go on until u is stable to 1 or 2 significant digits (JCGM 101, 7.9)")
@@ -227,12 +242,14 @@ void add_machine_action(CLI::App* machine, Chosen& chosen, const char* action, c
   CLI::App* command = machine->add_subcommand(action, help);
   const auto o = chosen_by(command, chosen, machine_command);
   o->action = action;
-  if (operand) command->add_option(operand, o->machine, "machine file or name")->required();
+  if (operand)
+    command->add_option(operand, o->machine, o->action == "init" ? "of the new machine" : "machine file or name")
+        ->required();
   if (o->action == "screen") {
-    add_machines(command, o->machines, 1, "how many accepted machines to draw");
+    add_machines(command, o->machines, 1, "how many accepted machines to draw (default 1000)");
     add_threads(command, o->threads);
   }
-  if (o->action == "screen" || o->action == "show") add_seed(command, o->seed, "of the random numbers");
+  if (o->action == "screen" || o->action == "show") add_seed(command, o->seed, "of the random numbers (default 1)");
   if (o->action != "init") add_format(command, o->format, {"text", "json"});
 }
 
@@ -252,17 +269,15 @@ void add_record(CLI::App& app, Chosen& chosen) {
       app.add_subcommand("record", "run a program on one virtual machine and write what it reports, touch by touch");
   const auto o = chosen_by(command, chosen, record_command);
   command->add_option("PROGRAM", o->program, "a DMIS program")->required();
-  command->add_option("--machine", o->machine, "machine file, or name of a shipped machine (default coord3-mc16)")
-      ->type_name("M");
-  command->add_option("--workpiece", o->workpiece, "workpiece file: true sizes, temperatures and form of the part")
-      ->type_name("W.json");
+  add_machine_of_program(command, o->machine);
+  add_workpiece_of_program(command, o->workpiece);
   command
       ->add_option("--with", o->with,
                    "let an effect act, left in: EFFECT or EFFECT:parameter=value,... (may be repeated)")
       ->type_name("EFFECT")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  add_seed(command, o->seed, "chooses the machine and its noise");
+  add_seed(command, o->seed, "chooses the machine and its noise" + else_of_program("1"));
   add_number(command, "--run", o->run, {1, kMostRepeats, true},
              "which repeat: the same machine and part, other noise of probe and head (default 1)")
       ->type_name("K");
@@ -279,12 +294,19 @@ void add_diagnose(CLI::App& app, Chosen& chosen) {
   CLI::App* command = app.add_subcommand(
       "diagnose", "say where recordings differ from the simulation, and which physics would explain it");
   const auto o = chosen_by(command, chosen, diagnose_command);
-  command->add_option("REC", o->recordings, "recordings, CSV; several are taken as one")->required();
-  command->add_option("--program", o->program, "the program that was run, when the recording has no targets")
+  command
+      ->add_option("REC", o->recordings,
+                   "recordings, CSV; several are taken as one; or a file of values: CSV, or a DMIS result file")
+      ->required();
+  command
+      ->add_option("--program", o->program,
+                   "the program that was run: for recordings without targets or in part coordinates, and for values")
       ->type_name("P.dmi");
   command
-      ->add_option("--machine", o->machine,
-                   "machine file, or name of a shipped machine (default: what the recording says)")
+      ->add_option(
+          "--machine", o->machine,
+          "machine file, or name of a shipped machine (default: what the recording says, else the program, else "
+          "coord3-mc16)")
       ->type_name("M");
   command
       ->add_option("--workpiece", o->workpiece, "workpiece file: calibrated sizes, temperatures, expansion coefficient")
@@ -305,7 +327,7 @@ void add_diagnose(CLI::App& app, Chosen& chosen) {
       ->add_flag("--design-only", o->design_only, "say what such a recording could tell, without looking at its values")
       ->excludes(model_out)
       ->excludes(fail);
-  add_seed(command, o->seed, "of the simulated recordings");
+  add_seed(command, o->seed, "of the simulated recordings (default 1)");
   add_threads(command, o->threads);
   add_format(command, o->format, {"text", "json"});
 }
@@ -328,9 +350,7 @@ void add_repl(CLI::App& app, Chosen& chosen) {
   CLI::App* command = app.add_subcommand("repl", "enter statements one at a time and see their results");
   const auto o = chosen_by(command, chosen, repl_command);
   command->add_option("PROGRAM", o->program, "a DMIS program to begin with");
-  command
-      ->add_option("--machine", o->settings.machine, "machine file, or name of a shipped machine (default coord3-mc16)")
-      ->type_name("M");
+  add_machine_of_program(command, o->settings.machine);
   add_settings(command, o->settings);
 }
 
