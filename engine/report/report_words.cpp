@@ -35,6 +35,7 @@ std::span<const ReportWord> report_words() {
       ReportWord{"part", "", "share of the variance that the workpiece has: its calibration, temperature and form"},
       ReportWord{"", "contributions", "shares of the variance, each contributor acting alone; their sum is 1"},
       ReportWord{"source", "budget", "with --budget: every error function and every other source, acting alone"},
+      ReportWord{"share", "share", "with --budget: of the variance of the value, by each source acting alone"},
       ReportWord{
           "alignment", "alignment_split",
           "with --budget: shares of the touches of features that coordinate systems are built from, and of others"},

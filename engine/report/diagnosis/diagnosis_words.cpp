@@ -8,7 +8,10 @@ std::span<const ReportWord> diagnosis_words() {
   static constexpr std::array table = {
       ReportWord{"", "verdict", "no_mismatch, named, one_of, unexplained or cannot_judge"},
       ReportWord{"", "no_mismatch", "verdict: nothing was found that a machine in order does not do"},
-      ReportWord{"", "named", "verdict: one effect explains the mismatch, with the probability told"},
+      ReportWord{
+          "", "named",
+          "verdict: one effect explains the mismatch, with the probability told. As a column: how large an effect must "
+          "be to get its name from such a recording"},
       ReportWord{"", "one_of", "verdict: several effects explain the mismatch equally well"},
       ReportWord{"", "unexplained",
                  "a mismatch is located, but no effect of the catalogue explains it: a pattern stands for it"},
