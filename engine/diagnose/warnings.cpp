@@ -27,7 +27,7 @@ Diagnostic not_its_targets(const RecordedTouches& t, double share, const std::st
   return diagnostic(
       Code::W0704,
       fmt::format(
-          "{}: {} of the touches lies more than {:.2g} mm from the targets: the part is not what the targets say. "
+          "{}: {} of the touches lie more than {:.2g} mm from the targets: the part is not what the targets say. "
           "Every surface point counts as unknown, and only what repeats differently is judged",
           file, share == kHalfOfThem ? "half" : "a tenth", within_mm(t, share)),
       "give measured or calibrated targets, or say '# surfaces: calibrated' if the targets are right");
