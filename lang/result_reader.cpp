@@ -4,6 +4,7 @@
 
 #include <sstream>
 
+#include "engine/base/numbers.hpp"
 #include "lang/lines.hpp"
 #include "lang/parser.hpp"
 #include "lang/signature.hpp"
@@ -101,7 +102,8 @@ class ResultReader {
     }
     Arguments axis;
     if (!v.qualifier.empty()) axis.add_text("axis", v.qualifier);
-    v.value = number->number * (unit_of(*v.kind, axis) == Unit::mm ? units_.mm_per_unit : units_.rad_per_unit);
+    const double unit = unit_of(*v.kind, axis) == Unit::mm ? units_.mm_per_unit : units_.rad_per_unit;
+    v.value = number->number * unit, v.last_digit = last_digit(number->text) * unit;
     result_.values.push_back(std::move(v));
   }
 

@@ -38,6 +38,7 @@ struct ResultValue {
   const ToleranceKind* kind = nullptr;
   std::string qualifier;      ///< the axis of CORTOL, DISTB and DISTWRT, 2D or 3D of POS; else empty
   double value = 0;           ///< mm or rad
+  double last_digit = 0;      ///< what the last digit of the value counts, mm or rad
   bool in_tolerance = false;  ///< INTOL
   std::optional<ResultUncertainty> uncertainty;
   int line = 0;

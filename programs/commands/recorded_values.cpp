@@ -10,7 +10,6 @@
 #include "engine/base/file_kind.hpp"
 #include "engine/base/files.hpp"
 #include "engine/base/letter_case.hpp"
-#include "engine/base/numbers.hpp"
 #include "engine/math/units.hpp"
 #include "engine/recording/recording.hpp"
 #include "lang/lines.hpp"
@@ -52,18 +51,6 @@ std::vector<Diagnostic> said_of_result(const SourceFile& file, const std::vector
   return told.list();
 }
 
-/// What the last digit of an evaluated tolerance counts; 0 where its number stands in another line.
-double last_digit_of(std::string_view statement) {
-  for (std::size_t begin = 0; begin < statement.size();) {
-    const std::size_t end = std::min(statement.find(',', begin), statement.size());
-    std::string_view field = statement.substr(begin, end - begin);
-    field.remove_prefix(std::min(field.find_first_not_of(' '), field.size()));
-    if (finite_number(field)) return last_digit(field);
-    begin = end + 1;
-  }
-  return 0;
-}
-
 /// The evaluated tolerances of a result file as rows; their features and coordinate systems are passed over.
 ValueRecording from_result(const SourceFile& file, std::vector<Diagnostic>& messages) {
   Sink sink;
@@ -75,7 +62,7 @@ ValueRecording from_result(const SourceFile& file, std::vector<Diagnostic>& mess
     ValueRow row;
     row.characteristic = v.label;
     row.value = is_angle(v) ? in_degrees(v.value) : v.value;
-    row.last_digit = last_digit_of(file.line(v.line));
+    row.last_digit = is_angle(v) ? in_degrees(v.last_digit) : v.last_digit;
     row.ordinal = ++met[v.label];
     row.span = {file.line_begin(v.line), file.line_begin(v.line) + 1};
     out.rows.push_back(std::move(row));

@@ -218,6 +218,15 @@ class Values(harness.Case):
             self.assertTrue(all(d["detect_um"] > 4 for d in said["smallest_detectable"] if d["detect"]), said["smallest_detectable"])
         self.assertNotEqual(rounded("x1", "500.00000")["verdict"], "no_mismatch")
 
+    def test_few_digits_of_a_result_file_count_in_its_units(self):
+        """In thousandths of an inch 80 mm is 10 um too much by its rounding alone."""
+        program = harness.ROOT / "examples/programs/prismatic_part.dmi"
+        self.abbe("record", program, "-o", "touches.csv", "--dmo", "mm.dmo")
+        inches = re.sub(r"(?<=, )\d+\.\d{5}", lambda n: f"{float(n[0]) / 25.4:.3f}", (self.folder / "mm.dmo").read_text()).replace("UNITS/MM", "UNITS/INCH")
+        said = self.diagnosis(self.write("inches.dmo", inches), "--program", program)
+        self.assertEqual(said["verdict"], "no_mismatch")
+        self.assertGreater(max(abs(v["deviation"]) for v in said["values"]), 0.009)
+
     def test_a_name_that_does_not_predict_the_other_values_better_is_doubted(self):
         """One wrong value, and whatever of many sizes fits it: a form of the part was told with 0.57."""
         program = harness.ROOT / "examples/programs/prismatic_part.dmi"

@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "engine/math/units.hpp"
 #include "engine/report/dmis_result.hpp"
 #include "lang/compile.hpp"
 
@@ -190,4 +191,16 @@ TEST_CASE("what cannot be read is said, and the rest is read") {
   CHECK(r.messages == "E0507 E0107 E0112 E0112 E0208 E0107 ");
   REQUIRE(r.result.features.size() == 1);
   CHECK(r.result.features[0].line == 7);
+}
+
+TEST_CASE("the last digit of a value counts in the unit that the file has") {
+  const auto values = read(
+                          "UNITS/INCH,ANGRAD\nTA(A)=TOL/DIAM,1.250,INTOL\nTA(B)=TOL/ANGLB,1.57,INTOL\nUNITS/MM,ANGDEC\n"
+                          "TA(C)=TOL/DIAM,$\n31.75,INTOL\nTA(D)=TOL/ANGLB,90.0,INTOL\n")
+                          .result.values;
+  REQUIRE(values.size() == 4);
+  CHECK(values[0].last_digit == Approx(0.0254));
+  CHECK(values[1].last_digit == Approx(0.01));
+  CHECK(values[2].last_digit == Approx(0.01));
+  CHECK(values[3].last_digit == Approx(0.1 * kDegree));
 }
