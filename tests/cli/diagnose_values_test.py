@@ -289,6 +289,18 @@ class Values(harness.Case):
         values = self.write("values.csv", f"characteristic,value\nROUND,{1000 * left:.9f}\nPITCH,80.0002\n")
         self.assertIn("2 values are", self.abbe("diagnose", values, "--program", program).stdout)
 
+    def test_what_has_no_sign_is_never_below_zero(self):
+        """A flatness of -2 um was judged, and agreed with machines in order. The deviation of a coordinate has a sign."""
+        text = (harness.ROOT / "examples/programs/prismatic_part.dmi").read_text()
+        program = self.write("signs.dmi", text.replace("OUTPUT/FA(BORE1),TA(DIA1),", "T(X1)=TOL/CORTOL,XAXIS,-0.05,0.05\nOUTPUT/FA(BORE1),TA(X1),TA(DIA1),"))
+        head = "characteristic,value,reference\nPITCH,80.0002,80\n"
+        for row in ("FLATA,-0.002,0", "FLATA,0.002,-0.002", "POS1,-0.002,"):
+            said = self.refused("E0701", "diagnose", self.write("bad.csv", f"{head}{row}\n"), "--program", program)
+            self.assertRegex(said, r"bad.csv:3:1: .* is never below 0")
+            self.assertIn("help: check this line", said)
+        for row in ("X1,-0.0004,0", "FLATA,-0.0000,", "FLATA,-1e-9,"):
+            self.assertIn("2 values are", self.abbe("diagnose", self.write("good.csv", f"{head}{row}\n"), "--program", program).stdout)
+
     def test_of_several_evaluations_each_row_says_which(self):
         twice = harness.LENGTH.replace("OUTPUT/FA(A),FA(B),TA(LEN)", "DECL/INTGR,N\nDO/N,1,2\nOUTPUT/FA(A),FA(B),TA(LEN)\nENDDO")
         values = self.write("values.csv", "characteristic,value,occurrence\nLEN,100.0,1\nLEN,100.0,2\n")

@@ -148,6 +148,19 @@ class EnsembleRuns {
                       "name the program that evaluated this value, and the characteristic as it has it"));
   }
 
+  /// A value, or a calibrated one, below zero of what has no sign: of a form, a position or a size.
+  void refuse_negative(const ValueRow& row, const plan::ToleranceDef& tolerance, const Samples& s) const {
+    constexpr double kRounding_mm = 1e-6;  // a form of nothing may come out as so little less
+    if (s.limits.lower && tolerance.kind->size_factor == 0) return;
+    for (const std::optional<double>& written : {std::optional(row.value), row.reference})
+      if (written && *written < -kRounding_mm)
+        throw UserError(diagnostic_at(
+            recording_.source, row.span, Code::E0701,
+            fmt::format("'{}' is {:.6g} mm here: {} of this program is never below 0", row.characteristic, *written,
+                        tolerance.kind->word),
+            "check this line; where the software gives a deviation a sign, write what the program asks for: the width of a zone, a size"));
+  }
+
   /// A difference that no error of measurement makes: another part, another place, a slip of the pen.
   void refuse_stranger(const ValueRow& row, double reference, bool angle) const {
     const double off = std::abs(row.value - reference);
@@ -173,7 +186,11 @@ class EnsembleRuns {
           "number repeats in the column 'run', further evaluations in one program in the column 'occurrence'"));
     const plan::ToleranceDef& tolerance = (*program.plan)[(*program.plan)[s.characteristic].tolerance];
     const bool angle = unit_of(*tolerance.kind, tolerance.arguments) == Unit::rad;
-    if (!angle) refuse_unit(row, *s.reference), refuse_other_program(row, *s.reference);
+    if (!angle) {
+      refuse_unit(row, *s.reference);
+      refuse_negative(row, tolerance, s);
+      refuse_other_program(row, *s.reference);
+    }
     RecordedValue v{run.program, run.repeat, s.characteristic, s.occurrence, angle};
     v.reference = row.reference.value_or(*s.reference * engine_scale(angle) * v.reported());
     refuse_stranger(row, v.reference, angle);
