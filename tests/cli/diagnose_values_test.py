@@ -17,7 +17,7 @@ class Values(harness.Case):
         for run in range(1, runs + 1):
             for place, (block, reference) in itertools.product(PLACES, lengths.items()):
                 program = BLOCKS / f"{place}_{block}.dmi"
-                self.abbe("record", program, "-o", "touches.csv", "--dmo", f"{place}.dmo", "--seed", 3, *options)
+                self.abbe("record", program, "-o", "touches.csv", "--dmo", f"{place}.dmo", "--seed", 3, "--run", run, *options)
                 line = next(line for line in (self.folder / f"{place}.dmo").read_text().splitlines() if line.startswith("TA(LEN)"))
                 rows.append(f"LEN,{program},{run},{[f for f in line.split(',') if f.strip().replace('.', '').isdigit()][0].strip()},{reference}")
         return self.write(name, "\n".join(rows) + "\n")
@@ -300,6 +300,27 @@ class Values(harness.Case):
             self.assertIn("help: check this line", said)
         for row in ("X1,-0.0004,0", "FLATA,-0.0000,", "FLATA,-1e-9,"):
             self.assertIn("2 values are", self.abbe("diagnose", self.write("good.csv", f"{head}{row}\n"), "--program", program).stdout)
+
+    def test_a_run_of_values_that_was_copied_is_no_repeat(self):
+        rows = self.recorded(lengths=BOTH).read_text().splitlines()
+        def of_two_runs(*changes):
+            def again(line):
+                fields = line.split(",")
+                return ",".join(fields[:2] + ["2"] + fields[3:])
+            lines = rows[:2] + [change(line) for change in (str, again) for line in rows[2:]]
+            for change in changes:
+                lines[2:] = map(change, lines[2:])
+            return self.write("two.csv", "\n".join(lines) + "\n")
+        said = self.refused("E0713", "diagnose", of_two_runs())
+        self.assertRegex(said, "two.csv:17:1: .*run 2 holds the same values as run 1")
+        def coarse(line):
+            fields = line.split(",")
+            return ",".join(fields[:3] + [f"{float(fields[3]):.3f}"] + fields[4:])
+        def in_half_micrometres(line):   # as scales count
+            fields = line.split(",")
+            return ",".join(fields[:3] + [f"{round(float(fields[3]) * 2000) / 2000:.5f}"] + fields[4:])
+        for made in (of_two_runs(coarse), of_two_runs(in_half_micrometres), self.recorded(runs=2, lengths=BOTH)):
+            self.assertEqual(self.diagnosis(made)["verdict"], "no_mismatch")
 
     def test_of_several_evaluations_each_row_says_which(self):
         twice = harness.LENGTH.replace("OUTPUT/FA(A),FA(B),TA(LEN)", "DECL/INTGR,N\nDO/N,1,2\nOUTPUT/FA(A),FA(B),TA(LEN)\nENDDO")

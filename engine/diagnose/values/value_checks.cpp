@@ -4,11 +4,41 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <tuple>
+#include <utility>
 
 #include "engine/diagnose/quantile.hpp"
 #include "engine/math/units.hpp"
 
 namespace abbe::diagnose {
+
+namespace {
+
+using Repeats = std::vector<std::pair<Eigen::Index, Eigen::Index>>;  ///< rows of one value in two runs
+
+/// The logarithm of the chance that so many repeats are alike, of the lengths or the angles. They have the steps of the last
+/// digit, or larger ones, as those of scales.
+double log_chance_of(const ValueCase& c, const Repeats& alike, bool angles) {
+  constexpr double kQuieter = 5;  // than the specification says a probe may be, and repeat so much better
+  std::vector<double> written;
+  for (const auto& [a, b] : alike)
+    if (c.ensemble.values[static_cast<std::size_t>(b)].angle == angles)
+      written.push_back(c.recording->rows[static_cast<std::size_t>(b)].value);
+  double out = 0;
+  for (const auto& [a, b] : alike) {
+    const RecordedValue& v = c.ensemble.values[static_cast<std::size_t>(b)];
+    if (v.angle != angles) continue;
+    const Vector apart = c.ensemble.simulated.col(a) - c.ensemble.simulated.col(b);
+    const double scatter = std::sqrt((apart.array() - apart.mean()).square().mean()) / kQuieter,
+                 digit = std::sqrt(12.0) * c.recorded(b, c.deviation.size() + b),
+                 step = std::max(digit, common_step_mm(written) / v.reported());
+    if (digit > 0 && scatter > 0) out += std::min(0.0, std::log(step / (std::sqrt(2 * kPi) * scatter)));
+  }
+  return out;
+}
+
+}  // namespace
 
 void doubt_calibrations(const ValueCase& c, std::vector<Diagnostic>& messages) {
   constexpr double kTimes = 3;
@@ -27,6 +57,37 @@ void doubt_calibrations(const ValueCase& c, std::vector<Diagnostic>& messages) {
       fmt::format("{}: by U the calibrated values are known {:.0f} times worse than the machine measures them",
                   c.recording->source.name(), middle),
       "U is the expanded uncertainty (k = 2) in mm or degrees, as the value is; as it stands, only errors larger than U show"));
+}
+
+void refuse_copied_values(const ValueCase& c) {
+  constexpr double kNearlyAllOfRun = 0.9, kLogHardly = -14;
+  using Value = std::tuple<int, int, int>;  // program, characteristic, occurrence
+  std::map<int, std::map<Value, Eigen::Index>> runs;
+  for (std::size_t k = 0; k < c.ensemble.values.size(); ++k) {
+    const RecordedValue& v = c.ensemble.values[k];
+    runs[c.recording->rows[k].run][{v.program, v.characteristic.value, v.occurrence}] = static_cast<Eigen::Index>(k);
+  }
+  for (auto later = runs.begin(); later != runs.end(); ++later)
+    for (auto earlier = runs.begin(); earlier != later; ++earlier) {
+      Repeats alike;
+      for (const auto& [value, k] : later->second) {
+        const auto other = earlier->second.find(value);
+        if (other == earlier->second.end()) continue;
+        const std::vector<ValueRow>& rows = c.recording->rows;
+        if (rows[static_cast<std::size_t>(other->second)].value == rows[static_cast<std::size_t>(k)].value)
+          alike.emplace_back(other->second, k);
+      }
+      const std::size_t smaller = std::min(earlier->second.size(), later->second.size());
+      if (double(alike.size()) < kNearlyAllOfRun * double(smaller)) continue;
+      if (log_chance_of(c, alike, false) + log_chance_of(c, alike, true) > kLogHardly) continue;
+      const auto first = std::min_element(later->second.begin(), later->second.end(),
+                                          [](const auto& a, const auto& b) { return a.second < b.second; });
+      throw UserError(diagnostic_at(
+          c.recording->source, c.recording->rows[static_cast<std::size_t>(first->second)].span, Code::E0713,
+          fmt::format("run {} holds the same values as run {}, to their last digit: rows were copied", later->first,
+                      earlier->first),
+          "keep each run once; a repeat has other values"));
+    }
 }
 
 bool holds_references_only(const ValueCase& c) {

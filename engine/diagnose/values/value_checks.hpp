@@ -8,6 +8,11 @@ namespace abbe::diagnose {
 /// Calibrations that say less of most values than any machine of the specification would.
 void doubt_calibrations(const ValueCase&, std::vector<Diagnostic>& messages);
 
+/// Throws UserError (E0713): runs of which nine tenths of the smaller stand in another one, value for value to the last digit,
+/// where so many would not repeat by themselves: a value of a machine that repeats far better than the simulated ones does
+/// with the chance of its step over their scatter.
+void refuse_copied_values(const ValueCase&);
+
 /// Whether every value is, to its last digit, what it should be. Machines of the specification would not report that: the
 /// chance is the digit times the density of the values.
 bool holds_references_only(const ValueCase&);

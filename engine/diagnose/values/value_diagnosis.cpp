@@ -59,6 +59,8 @@ Diagnosis diagnose_values(const ValueRecording& recording, const std::vector<Val
                           const Machine& machine, const DiagnoseOptions& options) {
   begins(options.progress, "virtual machines of the specification, and every effect on them");
   const ValueCase c = value_case_of(recording, programs, machine, options);
+  const bool references_only = holds_references_only(c);
+  if (!options.design_only && !references_only) refuse_copied_values(c);
   Diagnosis out;
   if (options.design_only) out.judged = Judged::plan;
   doubt_calibrations(c, out.messages);
@@ -69,7 +71,7 @@ Diagnosis diagnose_values(const ValueRecording& recording, const std::vector<Val
   tell_hidden(*c.search, out);
   if (options.design_only) return out;
   out.values = judge_each(c);
-  if (holds_references_only(c)) {
+  if (references_only) {
     tell_references_only(c, out);
     return out;
   }
