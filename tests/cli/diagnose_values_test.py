@@ -322,6 +322,26 @@ class Values(harness.Case):
         for made in (of_two_runs(coarse), of_two_runs(in_half_micrometres), self.recorded(runs=2, lengths=BOTH)):
             self.assertEqual(self.diagnosis(made)["verdict"], "no_mismatch")
 
+    def test_an_angle_in_another_unit_is_refused(self):
+        """What was ten degrees off or more was refused, but not as what it is."""
+        text = (harness.ROOT / "examples/programs/prismatic_part.dmi").read_text()
+        program = self.write("angle.dmi", text.replace("T(SQUARE)=", "T(AN)=TOL/ANGLB,NOMINL,90,-0.05,0.05\nOUTPUT/FA(PLA),FA(PLB),TA(AN)\nT(SQUARE)="))
+        for value, unit in {1.570801: "radians", 5400.01: "minutes of arc", 324000.6: "seconds of arc"}.items():
+            for row in (f"{value},", f"90.0001,{value}"):
+                said = self.refused("E0701", "diagnose", self.write("bad.csv", f"characteristic,value,reference\nAN,{row}\n"), "--program", program)
+                self.assertIn(f"'AN' is 90 degrees on an error-free machine, {value:.6g} here: it is in {unit}", said)
+
+    def test_a_form_in_micrometres_is_doubted(self):
+        """One flatness of 0.87 mm among forms of micrometres. A part may have it: it is not refused."""
+        program = harness.ROOT / "examples/programs/prismatic_part.dmi"
+        self.abbe("record", program, "-o", "touches.csv", "--dmo", "good.dmo")
+        def with_flatness(mm):
+            values = re.sub(r"TOL/FLAT, [\d.]+", f"TOL/FLAT, {mm}", (self.folder / "good.dmo").read_text())
+            return self.diagnosis(self.write("bad.dmo", values), "--program", program)["otherwise"]
+        self.assertTrue(with_flatness(0.87).startswith("Check the unit of FLATA of prismatic_part.dmi: in micrometres it would be"))
+        self.assertNotIn("micrometres", with_flatness(0.05))   # not so far off
+        self.assertNotIn("micrometres", with_flatness(9.5))    # nor would that be usual
+
     def test_of_several_evaluations_each_row_says_which(self):
         twice = harness.LENGTH.replace("OUTPUT/FA(A),FA(B),TA(LEN)", "DECL/INTGR,N\nDO/N,1,2\nOUTPUT/FA(A),FA(B),TA(LEN)\nENDDO")
         values = self.write("values.csv", "characteristic,value,occurrence\nLEN,100.0,1\nLEN,100.0,2\n")

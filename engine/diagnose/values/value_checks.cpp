@@ -1,6 +1,7 @@
 #include "engine/diagnose/values/value_checks.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -88,6 +89,23 @@ void refuse_copied_values(const ValueCase& c) {
                       earlier->first),
           "keep each run once; a repeat has other values"));
     }
+}
+
+std::string doubt_of_micrometres(const ValueCase& c) {
+  constexpr double kTimesFurther = 100;
+  const std::vector<std::string> labels = labels_of(c);
+  std::vector<std::string> doubted;
+  for (std::size_t k = 0; k < labels.size(); ++k) {
+    const RecordedValue& v = c.ensemble.values[k];
+    const auto machines = c.judges.judged.col(static_cast<Eigen::Index>(k));
+    const double thousandth = c.recording->rows[k].value - v.reference / v.reported();  // deviation, um
+    if (v.angle || std::abs(v.deviation) < kTimesFurther * machines.cwiseAbs().maxCoeff()) continue;
+    if (thousandth < machines.minCoeff() || thousandth > machines.maxCoeff()) continue;
+    if (std::find(doubted.begin(), doubted.end(), labels[k]) == doubted.end()) doubted.push_back(labels[k]);
+  }
+  if (doubted.empty()) return "";
+  return fmt::format("Check the unit of {}: in micrometres it would be what a machine of the specification measures.",
+                     fmt::join(doubted, " and of "));
 }
 
 bool holds_references_only(const ValueCase& c) {

@@ -1,6 +1,8 @@
 // What is wrong with a file of values as such.
 #pragma once
 
+#include <string>
+
 #include "engine/diagnose/values/value_case.hpp"
 
 namespace abbe::diagnose {
@@ -12,6 +14,10 @@ void doubt_calibrations(const ValueCase&, std::vector<Diagnostic>& messages);
 /// where so many would not repeat by themselves: a value of a machine that repeats far better than the simulated ones does
 /// with the chance of its step over their scatter.
 void refuse_copied_values(const ValueCase&);
+
+/// What to say of values that lie a hundred times further off than any virtual machine, and of which a thousandth is what these
+/// measure: they may be in micrometres. A part may have such a form, so they are not refused. Empty: there are none.
+std::string doubt_of_micrometres(const ValueCase&);
 
 /// Whether every value is, to its last digit, what it should be. Machines of the specification would not report that: the
 /// chance is the digit times the density of the values.

@@ -79,6 +79,8 @@ Diagnosis diagnose_values(const ValueRecording& recording, const std::vector<Val
   if (out.p_value > kAlarm) return out;
   begins(options.progress, "sizes of what was found");
   tell_explanation(c, Closer(c), out);
+  if (const std::string unit = doubt_of_micrometres(c); !unit.empty())
+    out.otherwise = unit + (out.otherwise.empty() ? "" : " ") + out.otherwise;
   const auto worst =
       std::max_element(out.values.begin(), out.values.end(),
                        [](const JudgedValue& a, const JudgedValue& b) { return std::abs(a.z) < std::abs(b.z); });

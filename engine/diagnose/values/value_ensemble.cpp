@@ -122,17 +122,25 @@ class EnsembleRuns {
   }
 
  private:
-  /// A value, or a calibrated one, that is what the program measures in another unit.
-  void refuse_unit(const ValueRow& row, double measured_mm) const {
-    constexpr double kLeast_mm = 1e-3;  // less, of a form or a position, is rounding of what the program says
-    if (std::abs(measured_mm) < kLeast_mm) return;
-    for (const std::optional<double>& written : {std::optional(row.value), row.reference})
-      if (const auto unit = written ? foreign_unit(*written, measured_mm) : std::nullopt)
+  /// A value, or a calibrated one, that is what the program measures, in mm or degrees, in another unit.
+  void refuse_unit(const ValueRow& row, double measured, bool angle) const {
+    // less, of a form or a position, is rounding of what the program says, and an angle may err by its size
+    const double least = angle ? 1 : 1e-3;
+    if (std::abs(measured) < least) return;
+    for (const std::optional<double>& written : {std::optional(row.value), row.reference}) {
+      if (!written) continue;
+      std::optional<std::string_view> unit;
+      if (angle)
+        unit = foreign_angle(*written, measured);
+      else if (const auto length = foreign_unit(*written, measured))
+        unit = length->name;
+      if (unit)
         throw UserError(
             diagnostic_at(recording_.source, row.span, Code::E0701,
-                          fmt::format("'{}' is {:.6g} mm on an error-free machine, {:.6g} here: it is in {}",
-                                      row.characteristic, measured_mm, *written, unit->name),
+                          fmt::format("'{}' is {:.6g} {} on an error-free machine, {:.6g} here: it is in {}",
+                                      row.characteristic, measured, angle ? "degrees" : "mm", *written, *unit),
                           "value, reference and U are in millimetres or degrees"));
+    }
   }
 
   static constexpr double kMost = 10;  ///< mm or degrees
@@ -186,8 +194,8 @@ class EnsembleRuns {
           "number repeats in the column 'run', further evaluations in one program in the column 'occurrence'"));
     const plan::ToleranceDef& tolerance = (*program.plan)[(*program.plan)[s.characteristic].tolerance];
     const bool angle = unit_of(*tolerance.kind, tolerance.arguments) == Unit::rad;
+    refuse_unit(row, angle ? in_degrees(*s.reference) : *s.reference, angle);
     if (!angle) {
-      refuse_unit(row, *s.reference);
       refuse_negative(row, tolerance, s);
       refuse_other_program(row, *s.reference);
     }
