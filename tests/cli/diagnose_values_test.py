@@ -87,6 +87,31 @@ class Values(harness.Case):
         self.assertRegex(said["unexplained"]["sentence"], r"LEN of \S*z1_S.dmi strays, by .* LEN of \S*z1_L.dmi strays too\.")
         self.assertRegex(said["otherwise"], r"LEN of \S*z1_S.dmi and of LEN of \S*z1_L.dmi, and measure them again")
 
+    def test_one_characteristic_that_strays_alike_in_all_places_is_told(self):
+        """A wrong reference of one step of a step gauge, which was measured in three placements: "single values" strayed."""
+        def steps(x, y, z):
+            text = harness.LENGTH.split("F(A)=")[0] + "F(P0)=FEAT/POINT,CART,0,0,0,-1,0,0\nMEAS/POINT,F(P0),1\nPTMEAS/CART,0,0,0,-1,0,0\nENDMES\n"
+            text = text.replace("XORIG,800,YORIG,500,ZORIG,-700", f"XORIG,{x},YORIG,{y},ZORIG,{z}")
+            for k in (1, 2, 3, 4):
+                text += f"F(P{k})=FEAT/POINT,CART,{80 * k},0,0,-1,0,0\nMEAS/POINT,F(P{k}),1\nPTMEAS/CART,{80 * k},0,0,-1,0,0\nENDMES\n"
+                text += f"T(L{k})=TOL/DISTB,NOMINL,{80 * k},-0.01,0.01,PT2PT\nOUTPUT/FA(P0),FA(P{k}),TA(L{k})\n"
+            return text + "ENDFIL\n"
+        rows = []
+        for name, at in {"left": (300, 300, -700), "middle": (500, 500, -600), "right": (700, 700, -700)}.items():
+            program = self.write(f"{name}.dmi", steps(*at))
+            self.abbe("record", program, "-o", "touches.csv", "--dmo", "values.dmo", "--seed", 5)
+            values = re.findall(r"TA\(L(\d)\).* (\d+\.\d+)", (self.folder / "values.dmo").read_text())
+            rows += [f"L{k},{name}.dmi,{value},{80 * int(k)}" for k, value in values]
+        def said(text):
+            return self.diagnosis(self.write("steps.csv", "# machine: coord3-mc16\ncharacteristic,program,value,reference\n" + "\n".join(text) + "\n"))
+        self.assertEqual(said(rows)["verdict"], "no_mismatch")
+        wrong = said([row.replace(",240", ",240.015") for row in rows])
+        self.assertRegex(wrong["unexplained"]["sentence"], r"L3 \(240\.015 mm by reference\) strays alike in all 3 places where it was measured, by 1[3-7] um")
+        self.assertEqual(wrong["unexplained"]["shape"], "one characteristic")
+        self.assertIn("Check reference and U of L3", wrong["otherwise"])
+        one = said([row.replace(",240", ",240.015") if "left" in row else row for row in rows])
+        self.assertRegex(one["unexplained"]["sentence"], r"L3 of left.dmi strays by itself")
+
     def test_an_effect_is_found_with_either_sign(self):
         """A position is an absolute value: what makes it is no linear function of the size of an effect."""
         program, machine = harness.ROOT / "examples/programs/prismatic_part.dmi", harness.ROOT / "examples/iso10360/portal-2009.json"

@@ -3,6 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <tuple>
 
 #include "engine/diagnose/findings/belief.hpp"
 #include "engine/diagnose/findings/members.hpp"
@@ -89,6 +93,42 @@ std::optional<Finding> one_characteristic(const ValueCase& c, const Closer& clos
   return left_by_chance(c, closer, f) >= kInadequate ? std::optional(f) : std::nullopt;
 }
 
+/// The characteristic, of one tolerance and reference, and one artefact where rows say which, that strays alike in all
+/// places where it was measured: where chance leaves as much once its offset is free. Only among others.
+std::optional<StraysAlike> one_in_all_places(const ValueCase& c) {
+  constexpr std::size_t kOtherReferences = 2;  // of fewer nobody knows which it is
+  constexpr double kSameReference = 1e-3;      // mm or degrees: what rounding leaves of a program's nominals
+  using Which = std::tuple<std::string, long long, std::string>;
+  std::map<Which, std::set<std::tuple<int, int, int>>> places;
+  std::map<Which, Vector> columns;
+  const auto n = static_cast<Eigen::Index>(c.ensemble.values.size());
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const RecordedValue& v = c.ensemble.values[static_cast<std::size_t>(k)];
+    const ValueRow& row = c.recording->rows[static_cast<std::size_t>(k)];
+    const Which which{abbe::labels_of(row.characteristic).back(), std::llround(v.reference / kSameReference),
+                      row.artefact};
+    places[which].insert({v.program, v.characteristic.value, v.occurrence});
+    columns.try_emplace(which, Vector::Zero(n)).first->second(k) = 1;
+  }
+  if (columns.size() <= kOtherReferences) return std::nullopt;
+  const Cholesky root(c.judges.covariance);
+  const Vector white = root.whitened(Vector(c.deviation - c.judges.mean));
+  std::optional<StraysAlike> most;
+  for (const auto& [which, column] : columns) {
+    if (places[which].size() < 2) continue;
+    const Vector of = root.whitened(column);
+    const double size = of.dot(white) / of.squaredNorm(), energy = size * of.dot(white);
+    if (most && energy <= most->energy) continue;
+    Eigen::Index first = 0;
+    column.maxCoeff(&first);
+    const RecordedValue& v = c.ensemble.values[static_cast<std::size_t>(first)];
+    most = {std::get<0>(which), v.reference, v.angle, places[which].size(), column, size, energy};
+  }
+  if (!most) return std::nullopt;
+  const ValueSearch without(c.judges.mean, c.judges.covariance, c.search->explanations(), most->column);
+  return chance_of(c, without, c.judges.judged) >= kInadequate ? most : std::nullopt;
+}
+
 }  // namespace
 
 void tell_explanation(const ValueCase& c, const Closer& closer, Diagnosis& out) {
@@ -97,13 +137,22 @@ void tell_explanation(const ValueCase& c, const Closer& closer, Diagnosis& out) 
   const double adequacy = adequacy_of(c, closer, name);
   const bool doubted = adequacy < kInadequate && leaves_less(left_by_chance(c, closer, pattern), adequacy);
   const bool named = likelier(name, pattern, doubted ? kNamedInDoubt : kNamed);
-  if (!named) pattern = one_characteristic(c, closer, evidence).value_or(pattern);
+  std::optional<StraysAlike> alike;
+  if (!named) {
+    const std::optional<Finding> one = one_characteristic(c, closer, evidence);
+    if (one)
+      pattern = *one;
+    else
+      alike = one_in_all_places(c);
+  }
   show_improvement(c, closer, named ? name : pattern, out);
   if (named)
     tell_name(c, closer, name, adequacy, out);
+  else if (alike)
+    tell_strays_alike(c, *alike, out);
   else
     tell_pattern(c, closer, pattern, out);
-  if (!named && name.explanation >= 0 && closer.explanation(pattern).shape != kOneCharacteristic)
+  if (!named && name.explanation >= 0 && out.unexplained->shape != kOneCharacteristic)
     out.unexplained->sentence +=
         fmt::format(" Of the catalogue, {} comes nearest.", closer.explanation(name).effect->title);
 }
