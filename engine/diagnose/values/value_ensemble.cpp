@@ -267,12 +267,17 @@ Matrix simulated_values(const std::vector<RecordedValue>& values, const std::vec
 
 Matrix as_recorded(Matrix m, const Matrix& recorded, std::uint64_t seed) {
   constexpr std::uint32_t stream = stream_of("diagnose.values.calibration");
-  for (Eigen::Index i = 0; i < m.rows(); ++i)
-    for (Eigen::Index k = 0; k < recorded.cols(); ++k)
-      m.row(i) +=
-          recorded.col(k).transpose() *
-          normal_quantile(
-              uniform_pair({seed, static_cast<std::uint32_t>(i), stream, static_cast<std::uint32_t>(k), 0, 0}).a);
+  for (Eigen::Index k = 0; k < recorded.cols(); ++k) {
+    std::vector<Eigen::Index> errs;  // of a value's rounding it alone, of a calibration those of the artefact
+    for (Eigen::Index j = 0; j < recorded.rows(); ++j)
+      if (recorded(j, k) != 0) errs.push_back(j);
+    if (errs.empty()) continue;
+    for (Eigen::Index i = 0; i < m.rows(); ++i) {
+      const double error = normal_quantile(
+          uniform_pair({seed, static_cast<std::uint32_t>(i), stream, static_cast<std::uint32_t>(k), 0, 0}).a);
+      for (const Eigen::Index j : errs) m(i, j) += recorded(j, k) * error;
+    }
+  }
   return m;
 }
 

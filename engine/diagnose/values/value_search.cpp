@@ -24,9 +24,12 @@ ValueSearch::ValueSearch(Vector mean, const Matrix& covariance, Explanations exp
 }
 
 ValueSearch::Told ValueSearch::told_of(Matrix white) {
-  Told out{std::move(white), {}, {}};
+  Told out{std::move(white), {}, {}, {}};
   out.g = out.white.transpose() * out.white;
-  for (const double s : kSizes) out.by.emplace_back(s * s * out.g, 1);
+  for (const double s : kSizes) {
+    out.by.emplace_back(s * s * out.g, 1);
+    out.half_log_of_size.push_back(out.by.back().half_log_determinant());
+  }
   return out;
 }
 
@@ -77,10 +80,9 @@ Evidence ValueSearch::evidence(const Vector& deviation) const {
     const Vector u = told_[b].white.transpose() * w;
     std::vector<double> sizes;
     for (std::size_t i = 0; i < std::size(kSizes); ++i) {
-      const Cholesky& root = told_[b].by[i];
       const double s = kSizes[i];
-      const Vector v = root.whitened(u);
-      sizes.push_back(0.5 * s * s * v.squaredNorm() - root.half_log_determinant() -
+      const Vector v = told_[b].by[i].whitened(u);
+      sizes.push_back(0.5 * s * s * v.squaredNorm() - told_[b].half_log_of_size[i] -
                       std::log(double(std::size(kSizes))));
     }
     out.variant_log_bayes.push_back(log_sum_exp(sizes) + log_offset);

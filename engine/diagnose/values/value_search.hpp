@@ -45,9 +45,10 @@ class ValueSearch {
  private:
   /// What the values tell of a variant whatever they are, so that it is taken once for all machines.
   struct Told {
-    Matrix white;              ///< L^-1 H, without what the free columns can do
-    Matrix g;                  ///< H' V^-1 H
-    std::vector<Cholesky> by;  ///< of 1 + s^2 g, by size s
+    Matrix white;                          ///< L^-1 H, without what the free columns can do
+    Matrix g;                              ///< H' V^-1 H
+    std::vector<Cholesky> by;              ///< of 1 + s^2 g, by size s
+    std::vector<double> half_log_of_size;  ///< 1/2 log |1 + s^2 g|
   };
   struct Near {
     NearSizes of;
