@@ -21,7 +21,7 @@ namespace {
 [[noreturn]] void fail(const std::string& path, const char* doing) {
   throw UserError(diagnostic(
       Code::E0602, "cannot write '" + path + "': " + doing + ": " + std::strerror(errno),
-      "check that the folder exists and has room, and that it and the file are writable; the file is unchanged"));
+      "check that the folder exists and has room, and that it and the file are writable; nothing was changed"));
 }
 
 /// Closes what it holds.
