@@ -85,6 +85,7 @@ class Usage(harness.Case):
             self.assertIn(": a word of diagnoses", self.abbe("explain", word).stdout, word)
         self.assertIn("a word of reports", self.abbe("explain", "verdict").stdout)
         self.assertIn("cannot be told apart", self.abbe("explain", "members").stdout)
+        self.assertIn("80 of 100", self.abbe("explain", "detected").stdout)   # as docs/diagnosis_method.md has it
 
     def test_families_and_parts_of_the_names_of_effects(self):
         self.assertIn("  head.reindexing ", self.abbe("explain", "head").stdout)
