@@ -92,7 +92,7 @@ struct TouchScene {
   Temperatures temperature;
   double load_kg = 0;
   int touch = 0;       ///< ordinal in the program or recording
-  int feature = 0;     ///< ordinal of the feature measured
+  int feature = 0;     ///< ordinal of the feature measured, in the order of the first touches
   bool curved = true;  ///< of a ball or a bore, as its touches tell (run/curved_features.hpp)
   int setup = 0, run = 0, visit = 0, qualification = 0;
   Vec3 travel_length_mm{1000, 1000, 1000};  ///< of the machine's axes

@@ -46,8 +46,12 @@ Executor::Executor(const plan::Plan& plan, const Machine& machine, const RunOpti
   }
   if (options.recorded) find_recorded_points();
   std::uint32_t touches = 0;
+  measured_.assign(plan.features.size(), -1);
+  int features = 0;
   for (const plan::Operation& op : plan.operations) {
-    site_.push_back(std::holds_alternative<plan::Touch>(op.action) ? touches++ : 0);
+    const auto* touch = std::get_if<plan::Touch>(&op.action);
+    site_.push_back(touch ? touches++ : 0);
+    if (touch && measured_[touch->feature.value] < 0) measured_[touch->feature.value] = features++;
     cost_.push_back(cost(op.action));
     fuel_ += cost_.back();
   }

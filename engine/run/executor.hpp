@@ -113,6 +113,7 @@ class Executor {
   plan::VisitCounters visits_;
   std::vector<std::uint64_t> cost_;  ///< by operation
   std::uint64_t fuel_ = kFuel;       ///< of a lane: what is straight is never too long
+  std::vector<int> measured_;        ///< by FeatureId: its ordinal in the order of the first touches; -1: never touched
   std::vector<std::uint32_t> site_;  ///< by operation: ordinal of a touch among the touches of the plan
 };
 

@@ -53,7 +53,7 @@ TouchScene BlockRun::scene_of(const plan::Touch& touch, int slot) const {
     scene.load_kg = executor.part_.workpiece().load_kg;
   }
   scene.touch = static_cast<int>(executor.site_[operation]);
-  scene.feature = touch.feature.value;
+  scene.feature = executor.measured_[touch.feature.value];
   scene.setup = executor.options_.setup;
   scene.curved = executor.curved_[touch.feature.value] != 0;
   scene.visit = static_cast<int>(twin.indexings);

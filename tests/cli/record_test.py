@@ -196,4 +196,14 @@ with tempfile.TemporaryDirectory() as folder:
         check(run.returncode == 2 and code in run.stderr and text in run.stderr, f"{' '.join(arguments)}: {code}")
         check(not out.exists(), "nothing is written then")
 
+with tempfile.TemporaryDirectory() as folder:
+    PROGRAM = ROOT / "examples/programs/prismatic_part.dmi"
+    run, out = record(folder, "--seed", "3")
+    quiet = rows(out)
+    features = list(dict.fromkeys(row["feature"] for row in quiet))
+    run, out = record(folder, "--seed", "3", "--with", "noise.unequal:ratio=5,group=one feature,feature=3")
+    moved = {row["feature"] for row, before in zip(rows(out), quiet) if [row[a] for a in "xyz"] != [before[a] for a in "xyz"]}
+    # those after it are measured in coordinates that it has a share in
+    check(moved.isdisjoint(features[:2]) and features[2] in moved, "features count in the order of their first touches")
+
 sys.exit(1 if failures else 0)

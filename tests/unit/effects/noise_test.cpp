@@ -110,4 +110,25 @@ TEST_CASE("unequal: the group may be a tilted head, fast probing or one orientat
   CHECK(acts(aside, 3));
 }
 
+TEST_CASE("unequal: the group may be one feature, one setup, one run or a stretch of time") {
+  const auto acts = [](double group, const char* which, double value, auto change) {
+    TouchScene scene = touch({0, 0, 1});
+    scene.feature = 2, scene.setup = 5, scene.run = 7, scene.time_s = 300;
+    change(scene);
+    const Parameters p = {{"ratio", 2}, {"group", group}, {"to_s", 400}, {which, value}};
+    return displacement_mm(kUnequalNoise, scene, p, {1}) != Vec3{};
+  };
+  const auto as_it_is = [](TouchScene&) {};
+  CHECK(acts(4, "feature", 3, as_it_is));  // features count from 1
+  CHECK(!acts(4, "feature", 2, as_it_is));
+  CHECK(acts(5, "setup", 5, as_it_is));
+  CHECK(!acts(5, "setup", 5, [](TouchScene& s) { s.setup = 4; }));
+  CHECK(acts(6, "run", 7, as_it_is));
+  CHECK(!acts(6, "run", 7, [](TouchScene& s) { s.run = 0; }));
+  CHECK(acts(7, "from_s", 300, as_it_is));
+  CHECK(acts(7, "from_s", 300, [](TouchScene& s) { s.time_s = 400; }));
+  CHECK(!acts(7, "from_s", 301, as_it_is));
+  CHECK(!acts(7, "from_s", 300, [](TouchScene& s) { s.time_s = 400.1; }));
+}
+
 }  // namespace abbe
