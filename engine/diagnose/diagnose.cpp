@@ -320,7 +320,15 @@ std::variant<Diagnosis, AnotherPart> diagnosed(const Given& given, std::optional
   else
     mask_outliers(c);
   at("what each explanation would do to these touches");
-  EvidenceSearch first = search_of(c, plan, plan ? 0 : kUmPerMm * reading_step_mm(given.recording));
+  const double reading_step_um = plan ? 0 : kUmPerMm * reading_step_mm(given.recording);
+  const std::optional<NoisyGroup> noisy = plan ? std::nullopt : noisy_touches(c);
+  std::optional<Case> before = noisy ? std::optional(c) : std::nullopt;  // with readings as they were read
+  EvidenceSearch first = search_of(c, plan, reading_step_um);
+  if (noisy && explains_more(*noisy, *before, first.evidence())) {
+    c = *std::move(before);
+    part(noisy->group, c);
+    first = search_of(c, plan, reading_step_um);
+  }
   at("what this recording could detect");
   tell_power(c, first, out);
   out.baseline = summary(c, c.hyper, given.machine.known_state.has_value());

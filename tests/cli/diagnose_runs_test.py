@@ -267,6 +267,16 @@ class DiagnoseRuns(harness.Case):
         self.assertEqual(said["location"][0]["where"], {"head": "A 90.0 B 180.0"})
         self.assertEqual(said["baseline"]["outliers"], [])
 
+    def test_what_shook_the_machine_for_a_while_is_told_with_when(self):
+        """A quarter of the touches, of three orientations: their scatter is no dirt and no pattern."""
+        said = self.diagnosis(self.record(1, "--seed", 5, "--with", "noise.unequal:ratio=6,group=7,from_s=60,to_s=110"))
+        self.assertEqual([e["members"] for e in said["effects"]], [["noise.unequal"]])
+        told = {name: parameter["value"] for name, parameter in said["effects"][0]["parameters"].items()}
+        self.assertEqual(told["group"], "a stretch of time")
+        self.assertLess(abs(told["from_s"] - 60), 15)
+        self.assertLess(abs(told["to_s"] - 110), 15)
+        self.assertEqual((said["location"][0]["factor"], said["baseline"]["outliers"]), ("time", []))
+
     def test_a_pattern_finer_than_any_effect_repeats_and_is_no_noise(self):
         """Every touched point is off by its own amount, the same in both runs; the scale readings do not know of it."""
         recordings = []

@@ -1,8 +1,7 @@
 // Gross outliers: touches so far from what all others predict that they are dirt, burrs or early triggers.
 // They are left out, or they would spoil the fit. Dirt strikes single touches by chance, though: touches next
 // to each other, of one stylus or facing one way one after the other, or of one place again and again, that are all off, are a
-// mismatch with a cause, and so are those that a sudden change puts where they are: they stay in. Those of one tip in one
-// orientation are noise of its own.
+// mismatch with a cause, and so are those that a sudden change puts where they are: they stay in.
 #include "engine/diagnose/baseline/outliers.hpp"
 
 #include <fmt/format.h>
@@ -121,41 +120,6 @@ std::vector<char> systematic(const RecordedTouches& t, const RecordingRow* rows,
   return out;
 }
 
-/// Upper tail of a binomial law.
-double at_least_of(int n, int many, double share) {
-  double sum = 0;
-  for (int k = n; k <= many; ++k)
-    sum += std::exp(std::lgamma(many + 1.0) - std::lgamma(k + 1.0) - std::lgamma(many - k + 1.0) + k * std::log(share) +
-                    (many - k) * std::log1p(-share));
-  return sum;
-}
-
-/// Dirt strikes any stylus. Where nearly all outliers are of one tip in one orientation, that one scatters more than the
-/// others: it gets a noise of its own. Whether one did.
-bool part_noisy_tip(Case& c) {
-  constexpr int kEnough = 20;  // touches
-  LinearModel& m = c.baseline.model;
-  std::map<int, std::vector<std::size_t>> tips;
-  for (std::size_t i = 0; i < c.masked.size(); ++i) tips[c.touches.touches[i].scene.stylus.tip_ordinal].push_back(i);
-  const auto struck = static_cast<int>(std::count(c.masked.begin(), c.masked.end(), 1));
-  const double all = static_cast<double>(c.masked.size());
-  for (const auto& [tip, rows] : tips) {
-    const double own = static_cast<double>(rows.size());
-    if (own < kEnough || all - own < kEnough) continue;
-    const auto here =
-        static_cast<int>(std::count_if(rows.begin(), rows.end(), [&](std::size_t i) { return c.masked[i]; }));
-    if (at_least_of(here, struck, own / all) * double(tips.size()) > kChance) continue;
-    for (const std::size_t i : rows) m.noise_group[i] = m.noise_groups;
-    ++m.noise_groups;
-    for (std::size_t i = 1; i < m.follows.size(); ++i) m.follows[i] &= m.noise_group[i] == m.noise_group[i - 1];
-    const StylusScene& s = c.touches.touches[rows.front()].scene.stylus;
-    c.baseline.noise_names.push_back(
-        fmt::format("{} at A {:.1f} B {:.1f}", s.name, in_degrees(s.head_a_rad), in_degrees(s.head_b_rad)));
-    return true;
-  }
-  return false;
-}
-
 }  // namespace
 
 void take_part(Case& c, const LinearModel& all) {
@@ -174,7 +138,6 @@ void take_part(Case& c, const LinearModel& all) {
 void mask_outliers(Case& c) {
   const std::vector<char> all(c.touches.touches.size(), 1);
   mask(c, all);
-  if (part_noisy_tip(c)) mask(c, all);
   const std::vector<char> related = systematic(c.touches, c.recording->rows.data(), c.masked),
                           changed = put_there_by_a_sudden_change(c);
   // What is kept spoils its neighbours: nothing is dirt beside it that was none before.

@@ -85,6 +85,63 @@ TEST_CASE("a group that scatters more is told with its ratio, the others with th
   CHECK_FALSE(f.certain);  // no touch was repeated
 }
 
+TEST_CASE("a surface, a placement, a run or a while may scatter more, too") {
+  Planted p(2, 240);
+  const auto told_of = [&](auto where, std::string_view group, Factor factor, std::string_view place) {
+    scatter(p, 1.5, where);
+    const NoiseFinding f = only_noise(p, "noise.unequal");
+    CHECK(figure_of(f, "group").word == group);
+    CHECK(agrees(figure_of(f, "ratio"), std::hypot(Planted::kNoise_um, 1.5) / Planted::kNoise_um));
+    CHECK(f.factor == factor);
+    CHECK(f.where.front().second == place);
+    return f;
+  };
+  SUBCASE("a surface") {
+    const auto f = told_of([](const TouchScene& s) { return s.feature == 2; }, "one feature", Factor::feature, "C");
+    CHECK(figure_of(f, "feature").value == 3);
+  }
+  SUBCASE("a placement") {
+    const auto f = told_of([](const TouchScene& s) { return s.setup == 1; }, "one setup", Factor::setup, "1");
+    CHECK(figure_of(f, "setup").value == 1);
+  }
+  SUBCASE("a run") {
+    for (int i = 0; i < p.count(); ++i) p.scene(i).run = 1 + i % 2;
+    const auto f = told_of([](const TouchScene& s) { return s.run == 2; }, "one run", Factor::run, "2");
+    CHECK(figure_of(f, "run").value == 2);
+  }
+  SUBCASE("a while") {
+    scatter(p, 1.5, [](const TouchScene& s) { return s.touch >= 80 && s.touch < 130; });
+    const NoiseFinding f = only_noise(p, "noise.unequal");
+    CHECK(figure_of(f, "group").word == "a stretch of time");
+    CHECK(std::abs(figure_of(f, "from_s").value - p.scene(80).time_s) < 100);
+    CHECK(std::abs(figure_of(f, "to_s").value - p.scene(129).time_s) < 100);
+    p.c.touches.known &= ~static_cast<unsigned>(Covariate::time);
+    for (const NoiseFinding& other : judge_noise(p.c, p.result))
+      CHECK(figure_of(other, "group").word != "a stretch of time");
+  }
+}
+
+TEST_CASE("of what scatters along an axis no surface that faces that way scatters more, and the other way round") {
+  Planted shaken(3, 240), rough(3, 240);
+  for (Planted* p : {&shaken, &rough})
+    for (int i = 0; i < p->count(); ++i) p->scene(i).feature = std::abs(p->scene(i).normal.y) > 0.7;
+  scatter(shaken, 2, [](const TouchScene& s) { return s.normal.y; });
+  scatter(rough, 2, [](const TouchScene& s) { return s.feature; });
+  CHECK(figure_of(only_noise(shaken, "noise.vibration"), "direction").word == "y");
+  CHECK(figure_of(only_noise(rough, "noise.unequal"), "group").word == "one feature");
+}
+
+TEST_CASE("gross outliers of one surface are its scatter, if they are far more than chance strikes it") {
+  Planted p(4, 240);
+  p.c.masked.assign(240, 0);
+  CHECK_FALSE(struck_most(p.c));
+  for (const int i : {7, 12, 31, 60, 99}) p.c.masked[i] = 1;  // of all surfaces
+  CHECK_FALSE(struck_most(p.c));
+  for (const int i : {7, 12, 31, 60, 99}) p.c.masked[i] = 0, p.c.masked[5 * (i / 5) + 2] = 1;
+  REQUIRE(struck_most(p.c));
+  CHECK(struck_most(p.c)->touches == "touches on C");
+}
+
 TEST_CASE("repeats tell scatter from a pattern too fine for the recording") {
   Planted noise(2, 240), pattern(2, 240);
   for (Planted* p : {&noise, &pattern}) repeat(*p);

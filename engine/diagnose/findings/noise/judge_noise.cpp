@@ -5,7 +5,11 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
 
+#include "engine/diagnose/baseline/outliers.hpp"
 #include "engine/diagnose/explanations/catalogue.hpp"
 #include "engine/diagnose/model/prediction.hpp"
 #include "engine/diagnose/model/restricted_likelihood.hpp"
@@ -60,6 +64,48 @@ std::vector<NoiseFinding> judge_noise(const Case& c, const SearchResult& result)
   for (NoiseFinding& f : out) f.p = std::clamp(kLooks * f.p, kLeastP, 1.0);
   std::stable_sort(out.begin(), out.end(), [](const NoiseFinding& a, const NoiseFinding& b) { return a.p < b.p; });
   return out;
+}
+
+namespace {
+
+/// What repeats alike is none.
+std::optional<NoisyGroup> noisiest_unlike(const Case& c) {
+  const Residuals r = residuals(c, {});
+  std::optional<NoisyGroup> noisy = noisiest(c, r);
+  if (!noisy) return noisy;
+  const double share = noisy->excess.size / (1 + noisy->excess.size);
+  return repeats_of(c, r, among_rows(c, noisy->group.in), share) == Repeats::agree ? std::nullopt : std::move(noisy);
+}
+
+}  // namespace
+
+std::optional<NoisyGroup> noisy_touches(const Case& c) {
+  const std::optional<TouchGroup> struck = struck_most(c);
+  if (struck) {
+    Case with_all = c;
+    part(*struck, with_all);
+    std::optional<NoisyGroup> noisy = noisiest_unlike(with_all);
+    if (noisy && noisy->group.in == struck->in) return noisy;
+  }
+  return noisiest_unlike(c);
+}
+
+bool explains_more(const NoisyGroup& noisy, const Case& c, const Evidence& first) {
+  std::map<int, std::set<bool>> of_noise;  // by group of the noise: of touches in `noisy`, and of others
+  for (std::size_t i = 0; i < c.touches.touches.size(); ++i)
+    of_noise[c.baseline.model.noise_group[i]].insert(noisy.group.in(static_cast<Eigen::Index>(i)) == 1);
+  const bool parted = std::all_of(of_noise.begin(), of_noise.end(), [](const auto& g) { return g.second.size() == 1; });
+  return !parted && noisy.excess.chi2 / 2 - std::log(noisy.group.of_its_kind) > first.statistic;
+}
+
+void part(const TouchGroup& group, Case& c) {
+  LinearModel& m = c.baseline.model;
+  for (std::size_t i = 0; i < m.noise_group.size(); ++i)
+    if (group.in(static_cast<Eigen::Index>(i)) == 1) m.noise_group[i] = m.noise_groups;
+  ++m.noise_groups;
+  for (std::size_t i = 1; i < m.follows.size(); ++i) m.follows[i] &= m.noise_group[i] == m.noise_group[i - 1];
+  c.baseline.noise_names.push_back(group.touches);
+  mask_outliers(c);
 }
 
 }  // namespace abbe::diagnose

@@ -29,16 +29,20 @@ std::optional<EffectSetting::Value> in_machine_file(const Case& c, const Effect&
   return std::nullopt;
 }
 
-void ask_repeats(const Scatter& s, const Vector& in, double share, NoiseFinding& f) {
-  const auto pairs = repeats_in(s.c, in);
+Repeats repeats_of(const Case& c, const Residuals& r, const Vector& in, double share) {
+  const auto pairs = repeats_in(c, in);
   double common = 0, squares = 0;
   for (const auto& [first, again] : pairs) {
-    const double a = s.residuals.standardised(first), b = s.residuals.standardised(again);
+    const double a = r.standardised(first), b = r.standardised(again);
     common += a * b, squares += (a * a + b * b) / 2;
   }
-  f.repeats = pairs.size() < kEnoughRepeats  ? Repeats::too_few
+  return pairs.size() < kEnoughRepeats       ? Repeats::too_few
       : common < kInCommon * share * squares ? Repeats::differ
                                              : Repeats::agree;
+}
+
+void ask_repeats(const Scatter& s, const Vector& in, double share, NoiseFinding& f) {
+  f.repeats = repeats_of(s.c, s.residuals, in, share);
   f.certain = f.repeats == Repeats::differ;
 }
 

@@ -54,7 +54,8 @@ std::span<const NoiseProperty* const> noise_properties();
 DiagnosedParameter figure(const char* name, const char* unit, double value, double u);
 /// What the machine file says of it already; nothing where it does not have the effect.
 std::optional<EffectSetting::Value> in_machine_file(const Case&, const Effect&, const std::string& parameter);
-/// What repeats say of it where these rows scatter more, by this share of their variance. It is noise only where they differ.
+/// What repeats say where these rows scatter more, by this share of their variance. It is noise only where they differ.
+Repeats repeats_of(const Case&, const Residuals&, const Vector& in, double share);
 void ask_repeats(const Scatter&, const Vector& in, double share, NoiseFinding&);
 
 }  // namespace abbe::diagnose

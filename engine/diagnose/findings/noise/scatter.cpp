@@ -33,6 +33,13 @@ Excess excess_along(const Residuals& r, const Vector& share) {
   return out;
 }
 
+std::optional<Vector> share_along(const Case& c, int axis) {
+  Vector along(static_cast<Eigen::Index>(c.rows.size()));
+  for (Eigen::Index k = 0; k < along.size(); ++k) along(k) = std::pow(scene_of_row(c, k).normal[axis], 2);
+  if ((along.array() - along.mean()).square().sum() < 1) return std::nullopt;
+  return along;
+}
+
 double inflation(double tails, const Matrix& coupling, const Vector& rows) {
   return tails - 1 + rows.dot(coupling * rows) / rows.squaredNorm();
 }

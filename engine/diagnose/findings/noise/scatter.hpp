@@ -4,14 +4,15 @@
 // is what was fitted. A model of the variance is judged by what it gains in likelihood over equal ones.
 #pragma once
 
+#include <optional>
 #include <utility>
 
 #include "engine/diagnose/case.hpp"
 
 namespace abbe::diagnose {
 
-/// The looks at the scatter: four kinds of groups, three axes, all touches, outliers.
-inline constexpr int kLooks = 9;
+/// The looks at the scatter: eight kinds of groups, three axes, all touches, outliers.
+inline constexpr int kLooks = 13;
 /// Together they may not cost more false alarms than a tenth of what the search allows itself.
 inline constexpr double kNoiseAlarm = kAlarm / 10 / kLooks;
 
@@ -28,6 +29,9 @@ struct Excess {
   double chi2 = 0;  ///< twice what they gain over equal ones, of one degree of freedom
 };
 Excess excess_along(const Residuals&, const Vector& share);
+
+/// How much of the variance along the normal is along an axis. Nothing where the normals do not differ in it.
+std::optional<Vector> share_along(const Case&, int axis);
 
 /// How many times the variance of a sum of squares over rows is that of as many independent normal residuals: tails and
 /// correlations.

@@ -14,14 +14,6 @@ namespace {
 /// From where on more scatter along an axis is worth telling, as a ratio of standard deviations.
 constexpr double kLeastAlong = 1.2;
 
-/// How much of the variance along the normal is along an axis. Nothing where the normals do not differ in it.
-std::optional<Vector> share_along(const Case& c, int axis) {
-  Vector along(static_cast<Eigen::Index>(c.rows.size()));
-  for (Eigen::Index k = 0; k < along.size(); ++k) along(k) = std::pow(scene_of_row(c, k).normal[axis], 2);
-  if ((along.array() - along.mean()).square().sum() < 1) return std::nullopt;
-  return along;
-}
-
 /// Whether touches along one axis scatter much as those along another do; nothing where those of fewer than two tell.
 std::optional<bool> alike_along_all_axes(const Case& c, const Residuals& r) {
   constexpr double kAlong = 0.8, kAlike = 1.6;
