@@ -278,14 +278,10 @@ bool is_of(const Expectation& e, const plan::Plan& plan, const plan::Characteris
 /// How often at most one line evaluates the same, as reports count occurrences; none where only the machines
 /// know, in a loop that is run as one.
 std::optional<int> most_occurrences(const plan::Plan& plan, const Expectation& e) {
-  std::map<std::pair<int, std::vector<std::string>>, int> met;
+  std::map<plan::EvaluatedAs, int> met;
   int most = 0;
-  for (const plan::CharacteristicDef& c : plan.characteristics) {
-    if (!is_of(e, plan, c)) continue;
-    std::vector<std::string> labels{plan[c.tolerance].label};
-    for (const plan::FeatureId f : c.features) labels.push_back(plan[f].label);
-    most = std::max(most, ++met[{c.line, std::move(labels)}]);
-  }
+  for (const plan::CharacteristicDef& c : plan.characteristics)
+    if (is_of(e, plan, c)) most = std::max(most, ++met[plan::evaluated_as(plan, c)]);
   return most > 0 && !plan::loops(plan).empty() ? std::nullopt : std::optional(most);
 }
 

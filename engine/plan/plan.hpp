@@ -9,6 +9,7 @@
 
 #include <array>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -378,6 +379,10 @@ struct Plan {
   const ToleranceDef& operator[](ToleranceId id) const { return tolerances[id.value]; }
   const CharacteristicDef& operator[](CharacteristicId id) const { return characteristics[id.value]; }
 };
+
+/// The line and the labels: what evaluations have in common that reports tell apart by their occurrence.
+using EvaluatedAs = std::pair<int, std::vector<std::string>>;
+EvaluatedAs evaluated_as(const Plan&, const CharacteristicDef&);
 
 /// The plan as readable text, one operation a line: for golden tests and `abbe check --plan`.
 std::string to_text(const Plan&);

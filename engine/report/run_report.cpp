@@ -115,14 +115,9 @@ CharacteristicReport characteristic_report(const plan::Plan& plan, const Samples
 }  // namespace
 
 std::vector<int> occurrences(const plan::Plan& plan, const std::vector<Samples>& samples) {
-  std::map<std::pair<int, std::vector<std::string>>, int> met;
+  std::map<plan::EvaluatedAs, int> met;
   std::vector<int> numbers;
-  for (const Samples& s : samples) {
-    const plan::CharacteristicDef& definition = plan[s.characteristic];
-    std::vector<std::string> labels{plan[definition.tolerance].label};
-    for (const plan::FeatureId f : definition.features) labels.push_back(plan[f].label);
-    numbers.push_back(++met[{definition.line, std::move(labels)}]);
-  }
+  for (const Samples& s : samples) numbers.push_back(++met[plan::evaluated_as(plan, plan[s.characteristic])]);
   return numbers;
 }
 
