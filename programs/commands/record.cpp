@@ -8,6 +8,7 @@
 #include "engine/base/files.hpp"
 #include "engine/base/numbers.hpp"
 #include "engine/effects/effect.hpp"
+#include "engine/math/units.hpp"
 #include "engine/report/dmis_result.hpp"
 #include "engine/run/effect_set.hpp"
 #include "engine/run/effect_settings.hpp"

@@ -6,7 +6,8 @@ includes  every #include of a layer names that layer or one that CMakeLists.txt 
 headers   every header compiles alone
 codes     every message code is exercised by a test
 files     no file is longer than 500 lines
-constants no two sources of a layer have a constant of their own by the same name, because several may be compiled as one
+constants no two sources of a layer have a constant of their own by the same name, because several may be compiled as one; and every one includes
+          the header of each constant that it uses, because it may be compiled alone
 format    every file is as `make format` leaves it; other versions of clang-format than Debian 12 has may disagree, so others are not asked
 """
 import concurrent.futures
@@ -156,8 +157,29 @@ def check_files():
     return wrong
 
 
+@functools.cache
+def own_headers(path):
+    """What a file includes of this project, by itself or through headers."""
+    included = {ROOT / name for name in re.findall(r'^#include "(.*)"', path.read_text(), re.M)}
+    return frozenset(included.union(*(own_headers(header) for header in included if header.exists())))
+
+
+def constants_not_included():
+    holders = {}
+    for header in sources(".hpp"):
+        for declaration in re.findall(r"^(?:inline constexpr|extern const) [^;]*?[;={]", header.read_text(), re.M):
+            for name in re.findall(r"\bk[A-Z]\w*", declaration):
+                holders.setdefault(name, set()).add(header)
+    for path in sources(".cpp"):
+        code = re.sub(r'//.*|"(?:\\.|[^"\\])*"', "", path.read_text(errors="replace"))
+        for name in sorted(set(re.findall(r"(?<![:.\w])k[A-Z]\w*", code)) & holders.keys()):
+            declared_here = re.search(rf"\b{name}\s*(?:\[\w*\])*\s*[={{]", code)
+            if not declared_here and not holders[name] & own_headers(path):
+                yield f"{path.relative_to(ROOT)} uses {name} without {' or '.join(str(h.relative_to(ROOT)) for h in sorted(holders[name]))}"
+
+
 def check_constants():
-    wrong, table, found = [], layers(), {}
+    wrong, table, found = list(constants_not_included()), layers(), {}
     for path in sources(".cpp"):
         relative = path.relative_to(ROOT)
         for declaration in re.findall(r"^(?:inline |static )?const(?:expr|init)? [^;]*?;", path.read_text(errors="replace"), re.M):

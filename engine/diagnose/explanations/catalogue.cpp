@@ -11,6 +11,7 @@
 #include "engine/diagnose/explanations/parameter_grid.hpp"
 #include "engine/diagnose/explanations/patterns/patterns.hpp"
 #include "engine/diagnose/explanations/same_phase.hpp"
+#include "engine/diagnose/levels.hpp"
 #include "engine/run/recorded/logged.hpp"
 
 namespace abbe::diagnose {
