@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/base/ids.hpp"
 #include "engine/machine/error_state.hpp"
 #include "engine/math/units.hpp"
 #include "programs/commands/machine_report.hpp"
@@ -14,26 +13,23 @@ namespace abbe {
 
 namespace {
 
-// One character a line, in the order of test_lines(): E0, then E150.
-constexpr std::string_view kMarks = "xyz1234abcd";
-
 /// Errors over lengths in cells of one character. The middle row is zero.
 class Canvas {
  public:
   Canvas(double longest_mm, double range_mm)
-      : longest_mm_(longest_mm), range_mm_(range_mm), rows_(kRows, std::vector<std::string>(kColumns, " ")) {
-    std::fill(rows_[kRows / 2].begin(), rows_[kRows / 2].end(), "─");
+      : longest_mm_(longest_mm), range_mm_(range_mm), rows_(kRows, std::vector<std::string>(kColumns, kEmpty)) {
+    std::fill(rows_[kRows / 2].begin(), rows_[kRows / 2].end(), kZero);
   }
 
   void draw_limit(double length_mm, double mpe_mm) {
-    for (const double sign : {1.0, -1.0}) cell(length_mm, sign * mpe_mm) = "·";
+    for (const double sign : {1.0, -1.0}) cell(length_mm, sign * mpe_mm) = kLimit;
   }
 
   /// A mark, or "*" where there is one already.
   void draw_mark(double length_mm, double error_mm, char mark) {
     std::string& c = cell(length_mm, error_mm);
-    const bool taken = c == "*" || kMarks.find(c) != std::string_view::npos;
-    c = taken ? "*" : std::string(1, mark);
+    const bool unmarked = c == kEmpty || c == kZero || c == kLimit;
+    c = unmarked ? std::string(1, mark) : "*";
   }
 
   double length_of(int column) const { return longest_mm_ * column / (kColumns - 1); }
@@ -53,6 +49,8 @@ class Canvas {
   static constexpr int kRows = 17, kColumns = 72;
 
  private:
+  static constexpr const char *kEmpty = " ", *kZero = "─", *kLimit = "·";
+
   std::string& cell(double length_mm, double error_mm) {
     const double row = kRows / 2 * (1 - error_mm / range_mm_);
     const double column = (kColumns - 1) * length_mm / longest_mm_;
@@ -64,7 +62,8 @@ class Canvas {
 };
 
 /// The lines [first, last) of one test.
-Canvas length_canvas(const MachineReport& report, const LengthMpe& mpe, std::size_t first, std::size_t last) {
+Canvas length_canvas(const MachineReport& report, std::size_t first, std::size_t last) {
+  const LengthMpe& mpe = report.lines[first].mpe;
   double longest_mm = 0, range_mm = 0;
   for (std::size_t k = first; k < last; ++k)
     for (int m = 0; m < kLengthsPerLine; ++m) {
@@ -76,7 +75,7 @@ Canvas length_canvas(const MachineReport& report, const LengthMpe& mpe, std::siz
     canvas.draw_limit(canvas.length_of(column), mpe.at(canvas.length_of(column)));
   for (std::size_t k = first; k < last; ++k)
     for (int m = 0; m < kLengthsPerLine; ++m)
-      canvas.draw_mark(report.lines[k].length_mm[m], report.tested.error_mm[k][m], kMarks[k]);
+      canvas.draw_mark(report.lines[k].length_mm[m], report.tested.error_mm[k][m], report.lines[k].mark);
   return canvas;
 }
 
@@ -84,7 +83,7 @@ std::string length_rows(const MachineReport& report, std::size_t first, std::siz
   std::string out = "  mark  line   errors of its five lengths, um            longest mm  largest |error| / MPE\n";
   for (std::size_t k = first; k < last; ++k) {
     const TestLine& line = report.lines[k];
-    out += fmt::format("  {:<5} {:<5}", kMarks[k], line.name);
+    out += fmt::format("  {:<5} {:<5}", line.mark, line.name);
     double worst = 0;
     for (int m = 0; m < kLengthsPerLine; ++m) {
       const double error_mm = report.tested.error_mm[k][m];
@@ -124,15 +123,13 @@ std::string error_state_text(const MachineReport& report) {
 
 std::string length_test_text(const MachineReport& report) {
   const std::vector<TestLine>& lines = report.lines;
-  ABBE_CHECK(lines.size() <= kMarks.size());
   const Specification& spec = report.machine.specification;
   std::string out;
   for (std::size_t first = 0, last = 0; first < lines.size(); first = last) {
     while (last < lines.size() && lines[last].test == lines[first].test) ++last;
-    const LengthMpe& mpe = lines[first].test == "E150" ? *spec.e150_mpe : spec.mpe;
     out += fmt::format("\nIts test {} after {}: error over length, um; · MPE(l) = {}, * several lengths\n",
-                       lines[first].test, spec.standard, length_mpe_text(mpe));
-    out += length_canvas(report, mpe, first, last).text() + length_rows(report, first, last);
+                       lines[first].test, spec.standard, length_mpe_text(lines[first].mpe));
+    out += length_canvas(report, first, last).text() + length_rows(report, first, last);
   }
   return out;
 }

@@ -29,8 +29,10 @@ inline constexpr int kLengthsPerLine = 5;
 struct TestLine {
   std::string_view name;     ///< "x", "y", "z", "d1".."d4"; of E150 "yz+", "yz-", "xz+", "xz-"
   std::string_view test;     ///< "E0", "E150"
+  char mark;                 ///< stands for it in plots; no other line has it
   Vec3 start_mm, direction;  ///< scale readings of the common first point; unit vector
   Vec3 tip_mm;               ///< the tip, seen from the mount
+  LengthMpe mpe;             ///< of the test
   std::array<double, kLengthsPerLine> length_mm{}, mpe_mm{};
 };
 
@@ -71,7 +73,7 @@ inline constexpr Vec3 kTestTip{0, 0, -300};
 /// `runs`: how it runs through each travel, away from home (1), towards home (-1) or not at all
 /// (0). The five lengths start at the same end and are evenly spaced from 25 mm (a fifth of the
 /// longest on lines under 125 mm).
-TestLine central_line(const Machine&, std::string_view test, std::string_view name, const Vec3& runs,
+TestLine central_line(const Machine&, std::string_view test, std::string_view name, char mark, const Vec3& runs,
                       const Vec3& tip_mm, const LengthMpe&);
 
 /// P(range of three independent standard normal values <= r). Harter 1960; here by quadrature, to

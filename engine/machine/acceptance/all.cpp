@@ -56,7 +56,7 @@ std::vector<Diagnostic> probe_warnings(const Machine& machine, std::span<const P
   return warnings;
 }
 
-TestLine central_line(const Machine& machine, std::string_view test, std::string_view name, const Vec3& runs,
+TestLine central_line(const Machine& machine, std::string_view test, std::string_view name, char mark, const Vec3& runs,
                       const Vec3& tip_mm, const LengthMpe& mpe) {
   constexpr double kShortest_mm = 25;  // below 30 mm, as the standard asks
   constexpr int n = kLengthsPerLine;
@@ -68,7 +68,7 @@ TestLine central_line(const Machine& machine, std::string_view test, std::string
   }
   const double longest = machine.specification.longest_share * norm(whole);
   const double shortest = std::min(kShortest_mm, longest / n);
-  TestLine line{name, test, middle - 0.5 * longest * unit(whole), unit(whole), tip_mm, {}, {}};
+  TestLine line{name, test, mark, middle - 0.5 * longest * unit(whole), unit(whole), tip_mm, mpe, {}, {}};
   for (int m = 0; m < n; ++m) {
     line.length_mm[m] = shortest + (longest - shortest) * m / (n - 1);
     line.mpe_mm[m] = mpe.at(line.length_mm[m]);

@@ -12,12 +12,13 @@ namespace {
 std::vector<TestLine> e0_lines(const Machine& machine) {
   static constexpr struct {
     std::string_view name;
+    char mark;
     Vec3 runs;
-  } all[] = {{"x", {1, 0, 0}},    {"y", {0, 1, 0}},    {"z", {0, 0, 1}},   {"d1", {1, 1, 1}},
-             {"d2", {1, -1, -1}}, {"d3", {-1, 1, -1}}, {"d4", {-1, -1, 1}}};
+  } all[] = {{"x", 'x', {1, 0, 0}},    {"y", 'y', {0, 1, 0}},    {"z", 'z', {0, 0, 1}},   {"d1", '1', {1, 1, 1}},
+             {"d2", '2', {1, -1, -1}}, {"d3", '3', {-1, 1, -1}}, {"d4", '4', {-1, -1, 1}}};
   std::vector<TestLine> out;
-  for (const auto& [name, runs] : all)
-    out.push_back(central_line(machine, "E0", name, runs, kTestTip, machine.specification.mpe));
+  for (const auto& [name, mark, runs] : all)
+    out.push_back(central_line(machine, "E0", name, mark, runs, kTestTip, machine.specification.mpe));
   return out;
 }
 

@@ -14,15 +14,16 @@ std::vector<TestLine> e150_lines(const Machine& machine) {
   constexpr double kOffset_mm = 150;
   static constexpr struct {
     std::string_view name;
+    char mark;
     Vec3 runs, across;
-  } all[] = {{"yz+", {0, 1, 1}, {1, 0, 0}},
-             {"yz-", {0, 1, 1}, {-1, 0, 0}},
-             {"xz+", {1, 0, 1}, {0, 1, 0}},
-             {"xz-", {1, 0, 1}, {0, -1, 0}}};
+  } all[] = {{"yz+", 'a', {0, 1, 1}, {1, 0, 0}},
+             {"yz-", 'b', {0, 1, 1}, {-1, 0, 0}},
+             {"xz+", 'c', {1, 0, 1}, {0, 1, 0}},
+             {"xz-", 'd', {1, 0, 1}, {0, -1, 0}}};
   std::vector<TestLine> out;
   if (const auto& mpe = machine.specification.e150_mpe)
-    for (const auto& [name, runs, across] : all)
-      out.push_back(central_line(machine, "E150", name, runs, kTestTip + kOffset_mm * across, *mpe));
+    for (const auto& [name, mark, runs, across] : all)
+      out.push_back(central_line(machine, "E150", name, mark, runs, kTestTip + kOffset_mm * across, *mpe));
   return out;
 }
 
