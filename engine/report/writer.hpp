@@ -12,7 +12,6 @@ namespace abbe {
 
 struct ReportWriter {
   std::string_view name;  ///< what --format takes: "text", "json", "html"
-  std::string_view help;
   std::string (*write)(const RunReport&);
 };
 

@@ -140,6 +140,6 @@ std::string write_html(const RunReport& r) {
 
 }  // namespace
 
-extern const ReportWriter html_writer{"html", "a page to file", write_html};
+extern const ReportWriter html_writer{"html", write_html};
 
 }  // namespace abbe

@@ -130,6 +130,6 @@ std::string write_json(const RunReport& r) {
 
 }  // namespace
 
-extern const ReportWriter json_writer{"json", "one JSON object, schema abbe.run/1", write_json};
+extern const ReportWriter json_writer{"json", write_json};
 
 }  // namespace abbe

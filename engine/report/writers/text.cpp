@@ -128,6 +128,6 @@ std::string write_text(const RunReport& r) {
 
 }  // namespace
 
-extern const ReportWriter text_writer{"text", "a table to read", write_text};
+extern const ReportWriter text_writer{"text", write_text};
 
 }  // namespace abbe
