@@ -43,6 +43,15 @@ inline constexpr EffectParameter kSensorParameter{
     .high = 1000,
     .sought = Sought::stylus};
 
+/// From when on something is there that changes at once.
+inline constexpr EffectParameter kMomentParameter{.name = "t0_s",
+                                                  .unit = "s",
+                                                  .help = "when, since the start of the program",
+                                                  .typical = 600,
+                                                  .low = 0,
+                                                  .high = 1e7,
+                                                  .sought = Sought::moment};
+
 /// Is this the placement of the part that the parameter `setup` names? 0 means every one.
 inline bool placed_in(const TouchScene& scene, double setup) { return code(setup) == 0 || code(setup) == scene.setup; }
 

@@ -44,13 +44,7 @@ constexpr EffectParameter kScaleExpansionParameters[] = {
      .low = -20,
      .high = 20,
      .linear = true},
-    {.name = "cte_ppm_per_K",
-     .unit = "ppm/K",
-     .help = "expansion coefficient of the scales, on which an error of temperature acts",
-     .typical = 10.5,
-     .low = -1,
-     .high = 30,
-     .standard = 10.5},
+    cte_parameter(10.5, "expansion coefficient of the scales, on which an error of temperature acts"),
 };
 
 Vec3 scale_expansion(const TouchScene& scene, const double* theta, const double*) {

@@ -46,6 +46,17 @@ constexpr Vec3 isotropic_growth(const TouchScene& scene, double strain) {
   return along_normal(scene, strain * dot(scene.normal_on_part, scene.on_part));
 }
 
+/// The expansion coefficient of a body, that of its usual material unless the user says otherwise.
+constexpr EffectParameter cte_parameter(double usual, std::string_view help) {
+  return {.name = "cte_ppm_per_K",
+          .unit = "ppm/K",
+          .help = help,
+          .typical = usual,
+          .low = -1,
+          .high = 30,
+          .standard = usual};
+}
+
 /// Where a part is held that grows. Its origin stands still only where it is held there.
 inline constexpr std::string_view kHeldChoices[] = {"origin", "elsewhere"};
 inline constexpr EffectParameter kHeldParameter{
