@@ -28,14 +28,12 @@ void add_kinds(const Kinds& kinds, Words& out) {
   for (const auto* kind : kinds) out.emplace_back(kind->word);
 }
 
-/// Words for the places `kind:word` and `method:word` of a signature, which registries fill.
+/// Words for the places `kind:word`, `method:word` and `tolerance:word` of a signature, which registries fill.
 void add_registered(const Statement& statement, Words& out) {
-  const bool names_kind = statement.signature.find("kind:word") != std::string_view::npos;
-  if (statement.word == "TOL")
-    add_kinds(tolerance_kinds(), out);
-  else if (names_kind && statement.word != "DEVICE")
-    add_kinds(feature_kinds(), out);
-  if (statement.signature.find("method:word") != std::string_view::npos) add_kinds(constructions(), out);
+  const auto names = [&](std::string_view place) { return statement.signature.find(place) != std::string_view::npos; };
+  if (names("kind:word")) add_kinds(feature_kinds(), out);
+  if (names("method:word")) add_kinds(constructions(), out);
+  if (names("tolerance:word")) add_kinds(tolerance_kinds(), out);
 }
 
 /// Words of the kind that an argument names.

@@ -71,7 +71,7 @@ const Statement kText = {
 const Statement kDevice = {
     .word = "DEVICE",
     .label = "*",
-    .signature = "kind:word, ...",
+    .signature = "medium:word, ...",
     .help = "Names a device. Skipped.",
     .example = "DID(OUT)=DEVICE/STOR,'results.dmo'",
     .source = "ISO 22093, DEVICE",

@@ -45,7 +45,7 @@ bool is_angularity(const RawStatement& raw, std::string_view word) {
 }
 
 void define_tolerance(Lowering& lowering, const RawStatement& raw, const Match& match) {
-  const MatchedValue& word = *match.find("kind");
+  const MatchedValue& word = *match.find("tolerance");
   const ToleranceKind* kind = find_tolerance_kind(is_angularity(raw, word.text) ? "ANGLR" : word.text);
   if (!kind) return unknown_kind(lowering, word, "TOL", "tolerance", tolerance_words());
   std::optional<Match> rest =
@@ -227,7 +227,7 @@ extern const Statement kTol, kOutput, kEval;
 const Statement kTol = {
     .word = "TOL",
     .label = "T",
-    .signature = "kind:word, ...",
+    .signature = "tolerance:word, ...",
     .help = "Defines a tolerance. Its datums may be bound later, before OUTPUT or EVAL.",
     .example = "T(ROUND)=TOL/CIRLTY,0.01",
     .source = "ISO 22093, TOL",
