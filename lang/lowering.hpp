@@ -240,7 +240,7 @@ class Lowering : public State {
   int begin_line = 0, end_line = 0;      ///< of DMISMN and ENDFIL; 0 before them
   std::optional<Span> external_files;    ///< the XTERN whose list is open
   std::set<std::string> reported_words;  ///< words warned about once
-  std::set<std::string> skipped_labels;  ///< kinds of labels that skipped statements had: P of P(1)=PARTID/...
+  std::set<std::string> skipped_labels;  ///< kinds of labels that skipped statements had: PN of PN(1)=PARTID/...
   std::vector<Span> expectation_spans;   ///< of Directives::expectations
 
   // ---- of the current statement

@@ -64,7 +64,8 @@ struct Statement {
   Doubt doubt = Doubt::none;
 };
 
-/// `lower` of a statement that means nothing to a virtual machine: understood, and skipped without a message.
+/// `lower` of a statement that means nothing to a virtual machine: understood, and skipped without a message. OUTPUT may
+/// name its label.
 void skip(Lowering&, const RawStatement&, const Match&);
 
 /// Every statement that Abbe knows, in the order of the language reference.

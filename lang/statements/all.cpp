@@ -9,14 +9,15 @@ namespace abbe::lang {
 extern const Statement kDmismn, kFilnam, kEndfil, kUnits, kDecpl, kMode, kPrcomp, kSnset, kFedrat, kAclrat, kFly,
     kFinpos, kWkplan, kGeoalg, kTecomp, kSnsmnt, kSnsdef, kSnslct, kFeat, kConst, kMeas, kRmeas, kCalib, kPtmeas, kGoto,
     kFrom, kGohome, kEndmes, kDatdef, kDatset, kTrans, kRotate, kSave, kRecall, kTol, kOutput, kEval, kText, kDisply,
-    kDevice, kOpen, kClose, kVform, kDmesw, kDmeswv, kPause, kRead, kWrite, kDecl, kAssign, kObtain, kPrompt, kValue,
-    kIf, kElse, kEndif, kDo, kEnddo, kSelect, kCase, kDftcas, kEndcas, kEndsel, kJumpto, kMacro, kEndmac, kCall,
-    kInclud, kXtern, kExtfil, kEndxtn, kDmismd;
+    kDevice, kOpen, kClose, kVform, kDmesw, kPause, kRead, kWrite, kDecl, kAssign, kObtain, kPrompt, kValue, kIf, kElse,
+    kEndif, kDo, kEnddo, kSelect, kCase, kDftcas, kEndcas, kEndsel, kJumpto, kMacro, kEndmac, kCall, kInclud, kXtern,
+    kExtfil, kEndxtn, kDmismd, kPartid, kPartrv, kPartsn, kLotid, kPlanid, kProcid, kPrevop, kOperid, kMfgdev, kDmeid,
+    kDmeswi, kDmeswv, kFixtid, kFixtsn, kClmpid, kClmpsn, kQisdef;
 
 std::span<const Statement* const> statements() {
   static constexpr std::array list = {
       // the frame of a program
-      &kDmismn, &kFilnam, &kEndfil, &kUnits, &kMode, &kDmesw, &kDmeswv,
+      &kDmismn, &kFilnam, &kEndfil, &kUnits, &kMode, &kDmesw,
       // the machine
       &kPrcomp, &kSnset, &kFedrat, &kAclrat, &kFly, &kFinpos, &kWkplan, &kGeoalg, &kTecomp, &kSnsmnt, &kSnsdef,
       &kSnslct,
@@ -31,6 +32,9 @@ std::span<const Statement* const> statements() {
       // control
       &kIf, &kElse, &kEndif, &kDo, &kEnddo, &kSelect, &kCase, &kDftcas, &kEndcas, &kEndsel, &kJumpto, &kMacro, &kEndmac,
       &kCall, &kInclud, &kXtern, &kExtfil, &kEndxtn, &kDmismd,
+      // what identifies
+      &kPartid, &kPartrv, &kPartsn, &kLotid, &kPlanid, &kProcid, &kPrevop, &kOperid, &kMfgdev, &kDmeid, &kDmeswi,
+      &kDmeswv, &kFixtid, &kFixtsn, &kClmpid, &kClmpsn, &kQisdef,
       // understood and skipped
       &kText, &kDisply, &kDevice, &kOpen, &kClose, &kVform, &kDecpl, &kPause, &kRead, &kWrite};
   return list;

@@ -43,7 +43,7 @@ void switch_software(Lowering& lowering, const RawStatement&, const Match& match
 
 }  // namespace
 
-extern const Statement kDmismn, kEndfil, kUnits, kMode, kDmesw, kDmeswv;
+extern const Statement kDmismn, kEndfil, kUnits, kMode, kDmesw;
 
 const Statement kDmismn = {
     .word = "DMISMN",
@@ -95,15 +95,6 @@ const Statement kDmesw = {
     .source = "ISO 22093, DMESW; the region as written by production software",
     .lower = switch_software,
     .doubt = Doubt::course,
-};
-const Statement kDmeswv = {
-    .word = "DMESWV",
-    .label = "*",
-    .signature = "...",
-    .help = "Names the version of the software of a real machine. Skipped.",
-    .example = "DMESWV/'4.0'",
-    .source = "ISO 22093, DMESWV",
-    .lower = skip,
 };
 
 }  // namespace abbe::lang

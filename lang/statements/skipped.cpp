@@ -6,7 +6,9 @@
 
 namespace abbe::lang {
 
-void skip(Lowering&, const RawStatement&, const Match&) {}
+void skip(Lowering& lowering, const RawStatement& raw, const Match&) {
+  if (raw.label) lowering.skipped_labels.insert(raw.label->kind);
+}
 
 namespace {
 

@@ -240,7 +240,7 @@ const Statement kOutput = {
         "; report:label ), { report:label }",
     .help =
         "Puts out measured features; each tolerance is evaluated and its value gets an uncertainty. What "
-        "identifies the part or the report, P(1) of PARTID, is only repeated in the result file, as a sensor and a nominal F(l) are.",
+        "identifies the part or the report, PN(1) of PARTID, is only repeated in the result file, as a sensor and a nominal F(l) are.",
     .example = "OUTPUT/FA(BORE),TA(ROUND),TA(SIZE)",
     .source = "ISO 22093, OUTPUT",
     .lower = output,
