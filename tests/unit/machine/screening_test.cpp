@@ -218,8 +218,6 @@ TEST_CASE(
   CHECK(!screening_warning(fitting, screened_machines(fitting, 1, 500, 2).counts, 1, 2).has_value());
 }
 
-}  // namespace abbe
-
 TEST_CASE("a factor with which next to none are accepted is not offered") {
   const auto advice = [](const Machine& machine) {
     try {
@@ -235,3 +233,5 @@ TEST_CASE("a factor with which next to none are accepted is not offered") {
   for (const Machine& machine : {slip, in_mm})
     CHECK(advice(machine).starts_with("no factor on all of e_max from 0.01 to 100 helps: check the MPE"));
 }
+
+}  // namespace abbe
