@@ -3,10 +3,13 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "engine/base/ids.hpp"
+#include "engine/effects/effect.hpp"
+#include "engine/influences/influence.hpp"
 #include "engine/report/influences.hpp"
 #include "engine/report/study.hpp"
 #include "sample_plan.hpp"
@@ -30,6 +33,16 @@ const CharacteristicReport::Contribution* contribution(const CharacteristicRepor
 }
 
 }  // namespace
+
+TEST_CASE("an effect models an influence that reports declare, or none") {
+  const auto declared = influence_quantities();
+  for (const Effect* effect : effects()) {
+    CAPTURE(effect->name);
+    CHECK((effect->influence.empty() || std::any_of(declared.begin(), declared.end(), [&](const InfluenceQuantity& q) {
+             return q.name == effect->influence;
+           })));
+  }
+}
 
 TEST_CASE("limits are relative to the error-free value, conformance is a share") {
   const RunResult run = run_of({samples(0, 500, {499.999, 500.0002}, ramp(500, 1e-6))}, 1003);

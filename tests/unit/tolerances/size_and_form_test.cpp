@@ -1,4 +1,8 @@
+#include <filesystem>
+#include <fstream>
 #include <set>
+#include <sstream>
+#include <string>
 
 #include "tests/unit/tolerances/evaluation.hpp"
 
@@ -19,6 +23,15 @@ TEST_CASE("Every tolerance describes itself and is found by its word") {
     CHECK((kind->applies && kind->nominal && kind->limits && kind->evaluate));
   }
   CHECK(find_tolerance_kind("DIAMETER") == nullptr);
+}
+
+TEST_CASE("Every tolerance is tried in this folder") {
+  std::ostringstream tests;
+  for (const auto& file : std::filesystem::directory_iterator(ABBE_SOURCE_DIR "/tests/unit/tolerances"))
+    tests << std::ifstream(file.path()).rdbuf();
+  for (const ToleranceKind* kind : tolerance_kinds())
+    CHECK_MESSAGE(tests.str().find('"' + std::string(kind->word) + '"') != std::string::npos,
+                  "give " << kind->word << " a case with a value that you worked out");
 }
 
 TEST_CASE("The circularity of a cylinder is the largest of its sections") {
@@ -62,6 +75,23 @@ TEST_CASE("Sizes are compared with the nominal size") {
         "a size tolerance is for circles, cylinders and spheres");
   CHECK(Evaluation("RAD").feature(Shape::point, at({})).refusal() ==
         "a size tolerance is for circles, cylinders and spheres");
+}
+
+TEST_CASE("A width is that of two faces, or of an outline across or along") {
+  Evaluation faces("WIDTH");
+  faces.number("lower", -0.1).number("upper", 0.2);
+  faces.feature(Shape::parallel_planes, sized(at({}), 5.01), sized(at({}), 5));
+  CHECK(faces.value() == Approx(10.02));
+  CHECK(faces.nominal_value() == Approx(10));
+  CHECK(*faces.limits().lower == Approx(9.9));
+  CHECK(*faces.limits().upper == Approx(10.2));
+  CHECK(faces.word("across", "LONG").refusal() == "two planes have one width only");
+  Element slot = sized(at({}), 15);
+  slot.minor_size = 5;
+  CHECK(Evaluation("WIDTH").feature(Shape::slot, slot).value() == Approx(10));
+  CHECK(Evaluation("WIDTH").word("across", "LONG").feature(Shape::slot, slot).value() == Approx(30));
+  CHECK(Evaluation("WIDTH").feature(Shape::circle, slot).refusal() ==
+        "a width is of parallel planes, slots, rectangles and ellipses");
 }
 
 TEST_CASE("Form is the spread of the residuals") {
