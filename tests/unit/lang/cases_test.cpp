@@ -122,10 +122,10 @@ TEST_CASE("every statement has a case in which it is right and one in which it i
   };
   const std::set<std::string> right = words_of("ok", false), wrong = words_of("error", true);
   for (const Statement* s : statements()) {
-    INFO(s->word);
+    const std::string word(s->word);
     // there is no device to read from: always an error
-    CHECK((right.count(std::string(s->word)) > 0 || s->word == "READ"));
-    CHECK(wrong.count(std::string(s->word)) > 0);
+    CHECK_MESSAGE((right.contains(word) || word == "READ"), word << " stands in no program of tests/lang/ok");
+    CHECK_MESSAGE(wrong.contains(word), word << " has no mistake in a program of tests/lang/error");
   }
 }
 
