@@ -156,9 +156,9 @@ TEST_CASE("every form of a result and its uncertainty comes back as it was writt
     CHECK(v.value == Approx(written[i]).epsilon(1e-4));
     CHECK(v.in_tolerance == (i % 2 == 0));
     REQUIRE(v.uncertainty.has_value());
-    CHECK(v.uncertainty->u == Approx(written[i] / 100));
-    CHECK(v.uncertainty->lcl == Approx(-written[i] / 50));
-    CHECK(v.uncertainty->ucl == Approx(written[i] / 40));
+    CHECK(v.uncertainty->u == Approx(written[i] / 100).scale(0));
+    CHECK(v.uncertainty->lcl == Approx(-written[i] / 50).scale(0));
+    CHECK(v.uncertainty->ucl == Approx(written[i] / 40).scale(0));
     CHECK(v.uncertainty->conformance.has_value() == (i % 2 == 0));
   }
 }

@@ -60,10 +60,10 @@ TEST_CASE("the shipped machine of the paper holds Tables 1 and 2, in mm and rad"
   CHECK(m[Component::exx].linear == 0.8);
   CHECK(m[Component::exx].e_max == doctest::Approx(7e-3));
   CHECK(m[Component::ezy].curvature == 0.4);
-  CHECK(m[Component::ecz].e_max == doctest::Approx(10e-6));
+  CHECK(m[Component::ecz].e_max == doctest::Approx(10e-6).scale(0));
   CHECK(m.specification.mpe.a_mm == doctest::Approx(5e-3));
-  CHECK(m.specification.mpe.k == doctest::Approx(5e-6));
-  CHECK(m.head.sd_a_rad == doctest::Approx(0.83 / 3600 * kDegree));
+  CHECK(m.specification.mpe.k == doctest::Approx(5e-6).scale(0));
+  CHECK(m.head.sd_a_rad == doctest::Approx(0.83 / 3600 * kDegree).scale(0));
   CHECK(m.probe.sd_mm.y == doctest::Approx(0.5e-3));
   const NamedSensor& side = m.sensors.at("A90B90");
   CHECK(side.head_b_rad == doctest::Approx(90 * kDegree));
@@ -75,7 +75,7 @@ TEST_CASE("bounds on influences name a known one, once, with a source") {
     {"influence": "vibration and outliers", "at_most_um": 0.3, "source": "floor survey"}])"));
   REQUIRE(m.bounds.size() == 1);
   CHECK(m.bounds[0].influence == "vibration and outliers");
-  CHECK(m.bounds[0].at_most_mm == doctest::Approx(0.0003));
+  CHECK(m.bounds[0].at_most_mm == doctest::Approx(0.0003).scale(0));
   CHECK(m.bounds[0].source == "floor survey");
   const auto one = [](const std::string& influence, const std::string& rest) {
     return R"({"influence": ")" + influence + R"(", )" + rest + "}";
@@ -113,7 +113,7 @@ TEST_CASE("what may be left out has the documented default") {
   CHECK(m.ram_chain.size() == 3);
   CHECK(m.home_offset() == Vec3{});
   CHECK(m[Component::eyy].linear == 0.8);
-  CHECK(m[Component::eax].e_max == doctest::Approx(10e-6));
+  CHECK(m[Component::eax].e_max == doctest::Approx(10e-6).scale(0));
   CHECK(m.specification.v_min == 1);
   CHECK(m.specification.v_max == 2);
   CHECK(m.specification.longest_share == 0.66);
@@ -132,12 +132,12 @@ TEST_CASE("values are converted to mm and rad") {
     "sensors": {"S": {"tip_in_r_mm": [20, 5, -100], "diameter_mm": 3, "material": "ceramic"},
                 "T": {"head_deg": [90, -45], "tip_in_r_mm": [0, 0, -50], "diameter_mm": 2, "material": "own", "young_GPa": 100, "cte_ppm_per_K": 9}},
     "effects": [{"name": "machine.scale", "parameters": {"scale_um_per_m": {"value": 2.5, "u": 0.5}, "axis": "x", "other": 3}}])"));
-  CHECK(m.squareness_cwy_rad == doctest::Approx(12e-6));
-  CHECK(m.squareness_bwz_rad == doctest::Approx(-3e-6));
+  CHECK(m.squareness_cwy_rad == doctest::Approx(12e-6).scale(0));
+  CHECK(m.squareness_bwz_rad == doctest::Approx(-3e-6).scale(0));
   CHECK(m[Component::exy].e_max == doctest::Approx(4e-3));
   CHECK(m[Component::exy].curvature == 0.4);
   CHECK(m.head.mounting_rad == doctest::Approx(90 * kDegree));
-  CHECK(m.head.sd_b_rad == doctest::Approx(2.0 / 3600 * kDegree));
+  CHECK(m.head.sd_b_rad == doctest::Approx(2.0 / 3600 * kDegree).scale(0));
   CHECK(m.sensors.at("S").young_GPa == 350);
   CHECK(m.sensors.at("S").shaft_diameter_mm == 1.5);
   CHECK(m.sensors.at("T").head_b_rad == doctest::Approx(-45 * kDegree));
