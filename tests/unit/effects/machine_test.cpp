@@ -75,6 +75,22 @@ TEST_CASE("straightness and angle: the angle is the slope of the straightness ov
   }
 }
 
+TEST_CASE("straightness and angle: a carriage under the part moves the surface the other way, and turns it alike") {
+  // A carriage that carries the part stands at -s when its scale reads s, so the slope against the reading has the
+  // other sign than that against the guide: of d = -(e + w x lever) only the first part turns over.
+  std::vector<double> z(static_cast<std::size_t>(kStraightnessAngleCoupling.draws));
+  for (std::size_t i = 0; i < z.size(); ++i) z[i] = std::cos(1.0 + 2.0 * static_cast<double>(i));
+  const auto at = [&](double side, const Vec3& lever) {
+    TouchScene scene = at_reading({321, 0, 0});
+    scene.side[0] = side, scene.lever_mm[0] = lever;
+    return 1e3 * displacement_mm(kStraightnessAngleCoupling, scene, {{"amplitude_um", 2}}, z);
+  };
+  const Vec3 lever{100, 200, 300};
+  CHECK(norm(at(1, {})) > 0.1);
+  CHECK(norm(at(1, {}) + at(-1, {})) < 1e-12);
+  CHECK(norm((at(1, lever) - at(1, {})) - (at(-1, lever) - at(-1, {}))) < 1e-12);
+}
+
 TEST_CASE("straightness and angle: the rail has the rms asked for") {
   double square = 0;
   for (int k = 0; k < kStraightnessAngleCoupling.draws; ++k) {
@@ -134,6 +150,21 @@ TEST_CASE("dynamics: yaw times arm while accelerating, then ringing that dies") 
   CHECK(displacement_mm(kDynamics, scene, yaw).x == doctest::Approx(5e-3));  // the other sense
   scene.travel = {0, 1, 0};
   CHECK(norm(displacement_mm(kDynamics, scene, yaw)) == 0);
+}
+
+TEST_CASE("dynamics: what rings begins at rest, however damped") {
+  // x'' + 2 zeta w x' + w^2 x = 0 from x = 1, x' = 0: x = 1 - (w t)^2 / 2 + zeta (w t)^3 / 3 - ...
+  TouchScene scene = at_reading({}, {-1, 0, 0});
+  scene.acceleration_mm_s2 = 1000;
+  scene.lever_mm[0] = {0, -1000, 0};
+  for (const double zeta : {0.0, 0.3, 0.8}) {
+    const auto left = [&](double t) {
+      scene.settled_s = t;
+      return 1e3 * displacement_mm(kDynamics, scene, {{"rotation_urad_per_m_s2", 1}, {"damping_ratio", zeta}}).x;
+    };
+    const double t = 1e-4, wt = 2 * kPi * 20 * t;
+    CHECK(1 - left(t) == doctest::Approx(wt * wt / 2 - zeta * wt * wt * wt / 3).epsilon(1e-4).scale(0));
+  }
 }
 
 TEST_CASE("ram droop: third power of the extension; compliance reads in across the ram only") {

@@ -99,6 +99,7 @@ TEST_CASE("unequal: the group may be a tilted head, fast probing or one orientat
     return displacement_mm(kUnequalNoise, scene, p, {1}) != Vec3{};
   };
   CHECK(acts(touch({0, 0, 1}, 50, kPi / 2), 1));
+  CHECK(acts(touch({0, 0, 1}, 50, -kPi / 2), 1));
   CHECK(!acts(touch({0, 0, 1}, 50, 0), 1));
   TouchScene slow = touch({0, 0, 1});
   slow.speed_mm_s = 3;

@@ -92,6 +92,15 @@ TEST_CASE("clamping: sections stay plane and normal to the bent middle plane") {
         doctest::Approx(-z * (w(x, y + h) - w(x, y - h)) / (2 * h)).epsilon(1e-6));
 }
 
+TEST_CASE("clamping: what does not stretch may lie beside the part's origin") {
+  const auto sideways = [](double z, double neutral) {
+    return reading_um(kClamping, touch_on_part({125, 0, z}, {1, 0, 0}), {{"bow_um", 3}, {"neutral_mm", neutral}});
+  };
+  CHECK(sideways(40, 40) == 0);
+  // 10 mm below it: the slope there, 2 x 3 um x 125 / 250^2 per mm, times as many.
+  CHECK(sideways(30, 40) == doctest::Approx(10 * 2 * 3. * 125 / (250 * 250)));
+}
+
 TEST_CASE("form: lobes repeat at their angle and sit where the help says") {
   const auto at = [](std::string_view name, double degrees) {
     const double a = degrees * kDegree;

@@ -216,6 +216,12 @@ TEST_CASE("contact flattening: only the difference to the reference sphere remai
   const double same = reading_um(kContactFlattening, touch({0, 0, 1}),
                                  {{"part_young_GPa", 380}, {"part_poisson", 0.23}, {"sphere_radius_mm", 100}});
   CHECK(std::fabs(same) < 0.001);
+  // A sphere as small as the tip is twice as curved as the plane part of its material: 2^(1/3) times the approach.
+  const auto of_part = [](double sphere_radius_mm) {
+    return reading_um(kContactFlattening, touch({0, 0, 1}),
+                      {{"part_young_GPa", 380}, {"part_poisson", 0.23}, {"sphere_radius_mm", sphere_radius_mm}});
+  };
+  CHECK(of_part(1) == doctest::Approx((1 - std::cbrt(2)) * of_part(0)).scale(0));
 }
 
 TEST_CASE(
@@ -266,6 +272,10 @@ TEST_CASE("probe step: one stylus jumps at its time, by a vector of the probe bo
   CHECK(norm(axial - 4e-3 * scene.stylus.to_head) < 1e-12);
   CHECK(norm(axial - displacement_mm(kProbeStep, scene, {{"amplitude_um", 4}, {"t0_s", 100}, {"direction", 2}})) <
         1e-12);
+  scene.stylus.tip_ordinal = 2;
+  for (const double tip : {0, 2})
+    CHECK(reading_um(kProbeStep, scene, {{"amplitude_um", 4}, {"t0_s", 100}, {"tip", tip}}) == doctest::Approx(4));
+  CHECK(reading_um(kProbeStep, scene, {{"amplitude_um", 4}, {"t0_s", 100}, {"tip", 1}}) == 0);
   scene.stylus.ordinal = 3;
   CHECK(reading_um(kProbeStep, scene, {{"amplitude_um", 4}, {"t0_s", 100}, {"sensor", 2}}) == 0);
 }

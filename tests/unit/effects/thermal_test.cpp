@@ -204,6 +204,8 @@ TEST_CASE("cycle: comes back after a period, turns over after half of it") {
   CHECK(at(300) == doctest::Approx(1.5));
   CHECK(at(900) == doctest::Approx(-1.5));
   CHECK(at(100 + 1200) == doctest::Approx(at(100)));
+  CHECK(reading_um(kThermalCycle, touch_after(0), {{"amplitude_um", 1.5}, {"phase_deg", 30}, {"direction", 2}}) ==
+        doctest::Approx(0.75));
 }
 
 TEST_CASE("ram growth: aluminium ram 800 mm out, 0.5 K: 9 um, and only in z") {
@@ -222,6 +224,8 @@ TEST_CASE("stylus growth: 100 mm steel 1.2 um/K, carbide 0.5, reads + on a face 
   CHECK(reading_um(kStylusGrowth, scene, warm) == doctest::Approx(1.15));
   scene.stylus.cte_per_K = 5e-6;
   CHECK(reading_um(kStylusGrowth, scene, warm) == doctest::Approx(0.5));
+  scene.stylus.length_mm = 300;
+  CHECK(reading_um(kStylusGrowth, scene, warm) == doctest::Approx(1.5));
   scene.normal = {1, 0, 0};
   CHECK(reading_um(kStylusGrowth, scene, warm) == doctest::Approx(0));
 }
@@ -241,8 +245,10 @@ TEST_CASE("part soak: 1 K left over 500 mm of steel is 5.75 um at the start, and
   end.time_s = 1e6;
   CHECK(reading_um(kPartSoak, end, warm) == doctest::Approx(0));
   TouchScene held = touch_on_part({200, 0, 0}, {1, 0, 0});  // where it is held: 2.3 um of growth, and as much of shift
-  CHECK(reading_um(kPartSoak, held, {{"start_K", 1}, {"tau_s", 3600}, {"held", 1}, {"shift_x_um", -2.3}}) ==
-        doctest::Approx(0));
+  const Parameters both = {{"start_K", 1}, {"tau_s", 3600}, {"held", 1}, {"shift_x_um", -2.3}};
+  CHECK(reading_um(kPartSoak, held, both) == doctest::Approx(0));
+  held.time_s = 3600;  // and as much of both is left later
+  CHECK(reading_um(kPartSoak, held, both) == doctest::Approx(0));
 }
 
 }  // namespace abbe
