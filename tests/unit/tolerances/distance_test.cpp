@@ -98,6 +98,26 @@ TEST_CASE("MAX and MIN reach to the far and near ends") {
   CHECK(value("MIN", Shape::plane, spread(at({}, {1, 0, 0}), -0.1, 0.2), Shape::point, t) == Approx(29.8));
 }
 
+TEST_CASE("MAX and MIN of slots, rectangles and ellipses go to their outlines") {
+  // 40 long and 20 wide, along y; the point lies 100 mm away along x, along y, or between them at 3 : 4.
+  Element outline = sized(at({}), 20);
+  outline.minor_size = 10, outline.second = {0, 1, 0};
+  const auto reach = [&](Shape shape, const Vec3& towards) {
+    Evaluation e = nominal_distance("DISTB", "PT2PT", 100, -1, 1).word("use", "MAX");
+    return e.feature(shape, outline).feature(Shape::point, at(100 * towards)).value() - 100;
+  };
+  const Vec3 oblique{0.6, 0.8, 0};
+  for (const Shape shape : {Shape::slot, Shape::rectangle, Shape::ellipse}) {
+    CHECK(reach(shape, {1, 0, 0}) == Approx(10));
+    CHECK(reach(shape, {0, -1, 0}) == Approx(20));
+  }
+  CHECK(reach(Shape::rectangle, oblique) == Approx(20 * 0.8 + 10 * 0.6));  // to a corner
+  CHECK(reach(Shape::ellipse, oblique) == Approx(std::hypot(20 * 0.8, 10 * 0.6)));
+  CHECK(reach(Shape::slot, oblique) == Approx(10 * 0.8 + 10));  // the round end: 10 about a centre 10 from the middle
+  outline.angle = 1;                                            // flat ends: as a rectangle
+  CHECK(reach(Shape::slot, oblique) == Approx(20 * 0.8 + 10 * 0.6));
+}
+
 TEST_CASE("MAX and MIN of a torus go round its tube") {
   const auto apart = [](const char* use, const Vec3& axis) {
     Element ring = sized(at({}, axis), 20);
@@ -273,6 +293,11 @@ TEST_CASE("MAX and MIN of a tilted plane are at its outermost touches") {
                         .feature(Shape::point, at({}))
                         .feature(Shape::plane, top);
   CHECK(made.value() == Approx(20.051).epsilon(1e-6));
+  CHECK(nominal_distance("DISTB", "ZAXIS", 20, -0.1, 0.1)
+            .word("use", "MIN")
+            .feature(Shape::point, at({}))
+            .feature(Shape::plane, top)
+            .value() == Approx(19.949).epsilon(1e-6));
   for (const double side : {1.0, -1.0})
     made.second_touches.push_back({{50, 30, 20 + side}, {50, 30, 20 + side}, {0, 0, side}});
   CHECK(made.value() == Approx(20.051).epsilon(1e-6));

@@ -33,6 +33,8 @@ TEST_CASE("Concentricity is twice the distance from the datum axis") {
   const Element tilted = spanning(at({10.01, 20, 0}, {1e-3, 0, 1}), -5, 20);
   shaft.number("zone", 0.1).feature(Shape::cylinder, tilted).datum(Shape::cylinder, kBore);
   CHECK(shaft.value() == Approx(0.06).epsilon(1e-5));
+  shaft.actual[0] = spanning(at({10.01, 20, 0}, {-1e-3, 0, 1}), -25, 5);  // 0.01 + 25e-3 at z = -25
+  CHECK(shaft.value() == Approx(0.07).epsilon(1e-5));
 }
 
 TEST_CASE("Concentricity with a face, and about a centre") {
@@ -83,6 +85,10 @@ TEST_CASE("Symmetry about a median plane and about an axis") {
   Evaluation key("SYM");
   key.feature(Shape::plane, spanning(at({10.05, 8, 3}, {1, 0, 0}), -10, 10)).datum(Shape::cylinder, kBore);
   CHECK(key.value() == Approx(0.10));
+  // One that leans along the axis: the zone lies along the axis, and 3 mm above its origin no further away.
+  Evaluation leaning("SYM");
+  leaning.feature(Shape::plane, spanning(at({10.05, 8, 3}, {0.8, 0, 0.6}), -1e-9, 1e-9)).datum(Shape::cylinder, kBore);
+  CHECK(leaning.value() == Approx(0.10));
   // Faces at x = +-5 that lean by 1e-3 and stand 0.002 beside the middle, touched from y = -4 to 10: at the
   // far end the median plane is 0.002 + 10 x 1e-3 from it.
   Evaluation faces("SYM");
@@ -119,6 +125,23 @@ TEST_CASE("Circular run-out looks at one section, total run-out at all") {
       e.touches.push_back({{10 + x, 20, 5 + 1e-3 * x}, {10 + x, 20, 5}, {0, 0, 1}});
     CHECK(e.value() == Approx(expected));
   }
+  // A hollow face, 0.05 deeper at radius 20 than at 10: no circle on it runs out.
+  for (const auto& [word, expected] : {std::pair{"CRNOUT", 0.0}, std::pair{"TRNOUT", 0.05}}) {
+    Evaluation e(word);
+    e.feature(Shape::plane, kFace).datum(Shape::cylinder, kBore);
+    for (const double x : {-20.0, -10.0, 10.0, 20.0})
+      e.touches.push_back({{10 + x, 20, std::fabs(x) > 15 ? 4.95 : 5}, {10 + x, 20, 5}, {0, 0, 1}});
+    CHECK(e.value() == Approx(expected));
+  }
+}
+
+TEST_CASE("Touches half a millimetre apart along the axis are of two sections") {
+  Evaluation e("CRNOUT");
+  e.feature(Shape::cylinder, kBore).datum(Shape::cylinder, kBore);
+  quarters(e, 10, 20, 0, {30, 30, 30, 30}, 30);
+  quarters(e, 10, 20, 0.5, {30.02, 30.02, 30.02, 30.02}, 30);
+  quarters(e, 10, 20, 0.55, {30.03}, 30);  // as good as at 0.5
+  CHECK(e.value() == Approx(0.01));
 }
 
 TEST_CASE("The run-out of cones and spheres is along the normal of the surface") {
@@ -137,6 +160,24 @@ TEST_CASE("The run-out of cones and spheres is along the normal of the surface")
       CHECK(e.value() == Approx(0.03));
     }
   }
+}
+
+TEST_CASE("Run-out and profile go along the vectors of the touches, however the datums stand in the part") {
+  // The program's coordinate system has the axis of a cone, or the face, along x: a touch is 0.03 out along its vector.
+  const Vec3 normal = unit({-1, 0, 1});
+  Evaluation cone("CRNOUT");
+  const Element lying = sized(spanning(at({0, 10, 20}, {1, 0, 0}), -15, 15), 6);
+  cone.feature(Shape::cone, lying).datum(Shape::cylinder, lying);
+  for (const double side : {1.0, -1.0}) {
+    const Vec3 meant{5, 10, 20 + side * 30}, out{normal.x, 0, side * normal.z};
+    cone.touches.push_back({meant + (side > 0 ? 0.03 : 0.0) * out, meant, out});
+  }
+  CHECK(cone.value() == Approx(0.03));
+  Evaluation wall("PROFS");
+  wall.number("lower", -0.1).number("upper", 0.1).feature(Shape::plane, lying);
+  wall.datum(Shape::plane, at({5, 0, 0}, {1, 0, 0}));
+  wall.touches = {{{5.03, 1, 2}, {5, 1, 2}, {1, 0, 0}}};
+  CHECK(wall.value() == Approx(0.06));
 }
 
 TEST_CASE("Run-outs say what they lack") {

@@ -243,6 +243,11 @@ TEST_CASE("The zone of a measured line holds its touches") {
   // Sideways it is nominal, but a surface along the datum's normal is no section: a cylinder about the middle
   // (0, 0, 0) of the line.
   CHECK(zone("PARLEL", rising, {0, 1, 0}, kAlongY, Shape::cylinder, heights) == Approx(0.024));
+  // The middle of the line is that of its ends, wherever its point is: from (0, 10, 0), rising by 1e-3, it is 0.01 up.
+  Evaluation rod("PARLEL");
+  rod.feature(Shape::line, spanning(at({0, 10, 0.01}, {0, 1, 1e-3}), -30, 10)).datum(Shape::line, kAlongY);
+  for (const double y : {-20.0, 20.0}) rod.touches.push_back({{0, y, 1e-3 * y}, {0, y, 0}, {y, 0, 1}});
+  CHECK(rod.value() == Approx(0.04).epsilon(1e-5));
   // 30 degrees to the plane, on a slope; the touches lie 0, 3, -1 um beside it.
   const double c = std::cos(kPi / 6), s = 0.5;
   const std::vector<Vec3> slope{{0, 0, 0}, {-0.003 * s, 0, 0.003 * c}, {20 * c + 0.001 * s, 0, 20 * s - 0.001 * c}};

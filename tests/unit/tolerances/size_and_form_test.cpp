@@ -71,6 +71,15 @@ TEST_CASE("Sizes are compared with the nominal size") {
   CHECK(r.nominal_value() == Approx(10));
   CHECK(*r.limits().lower == Approx(9.9));
   CHECK(*r.limits().upper == Approx(10.2));
+  Element slot = sized(at({}), 15.02), drawn = sized(at({}), 15);
+  slot.minor_size = 5.01, drawn.minor_size = 5;
+  for (const auto& [across, width, nominal] : {std::tuple{"SHORT", 10.02, 10.0}, {"LONG", 30.04, 30.0}}) {
+    Evaluation w("WIDTH");
+    w.number("lower", -0.1).number("upper", 0.2).word("across", across).feature(Shape::slot, slot, drawn);
+    CHECK(w.value() == Approx(width));
+    CHECK(w.nominal_value() == Approx(nominal));
+    CHECK(*w.limits().upper == Approx(nominal + 0.2));
+  }
   CHECK(Evaluation("DIAM").feature(Shape::plane, at({})).refusal() ==
         "a size tolerance is for circles, cylinders and spheres");
   CHECK(Evaluation("RAD").feature(Shape::point, at({})).refusal() ==
