@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/features/alignment.hpp"
+#include "engine/features/displacement.hpp"
 #include "tests/unit/features/operands.hpp"
 
 using namespace abbe;
@@ -88,6 +89,17 @@ TEST_CASE("A point as secondary datum is seen from the current origin or the pri
   check_near(B.R.cx, {-1, 0, 0});
   check_near(B.R.cy, {0, -1, 0});
   check_near(B.p, {1, 2, 7});
+}
+
+TEST_CASE("A bore as secondary datum is seen from what else is located across the primary axis") {
+  // The bore itself sets the origin too: it is seen from where the origin was. A face that sets one is no place.
+  const Rigid start{{}, {5, 5, 0}};
+  const DatumUse face = use(Shape::plane, at({40, 30, 0}, {0, 0, 1}), Axis::z, 1, "Z");
+  const DatumUse alone[] = {face, use(Shape::circle, at({8, 9, -3}, {0, 0, 1}), Axis::x, 1, "XY")};
+  check_near(datum_frame(start, alone).value.R.cx, {0.6, 0.8, 0});
+  const DatumUse walled[] = {face, use(Shape::circle, at({8, 9, -3}, {0, 0, 1}), Axis::x, 1, ""),
+                             locating(Shape::plane, at({-7, 60, -5}, {1, 0, 0}), "X")};
+  check_near(datum_frame(start, walled).value.R.cx, {0.6, 0.8, 0});
 }
 
 TEST_CASE("What no datum names stays as it was") {
@@ -188,6 +200,15 @@ TEST_CASE("A cone locates by its apex, wherever it was touched") {
   }
 }
 
+TEST_CASE("A plane is displaced along its nominal normal, an axis across its nominal direction") {
+  const double t = 0.2;
+  const Vec3 leaning{std::sin(t), 0, std::cos(t)};
+  const Element nominal = at({}, {0, 0, 1});
+  check_near(displacement(Shape::plane, at({10, 3, 1}, leaning), nominal), {0, 0, 1 + 10 * std::tan(t)});
+  check_near(displacement(Shape::cylinder, at({1, 2, 10}, leaning), nominal), {1 - 10 * std::tan(t), 2, 0});
+  check_near(displacement(Shape::sphere, at({1, 2, 10}, leaning), nominal), {1, 2, 10});
+}
+
 TEST_CASE("Datum reference frames of ISO 5459") {
   auto frame = [](std::initializer_list<Shape> shapes, std::vector<Element> datums) {
     return datum_reference_frame({shapes.begin(), shapes.size()}, datums).value;
@@ -232,6 +253,7 @@ TEST_CASE("Datum reference frames of ISO 5459") {
     const Rigid axis_only = frame({Shape::cylinder}, {at({9, 8, 4}, {0, 0, 1})});
     check_near(axis_only, {{}, {9, 8, 0}});
     check_near(frame({Shape::sphere}, {at({9, 8, 4}, {0, 0, 1})}), {{}, {9, 8, 4}});
+    check_near(frame({Shape::torus}, {at({9, 8, 4}, {0, 0, 1})}), {{}, {9, 8, 4}});
   }
   const std::vector<Element> four(4);
   const Shape planes[] = {Shape::plane, Shape::plane, Shape::plane, Shape::plane};

@@ -123,6 +123,10 @@ TEST_CASE("Halfway between features") {
   const Element bisecting = made("MIDLI", Shape::line, {line({10, 0, 0}, {1, 0, 0}), line(4 * at60, at60)}, {1, 0, 0});
   check_near(bisecting.direction, at30);
   check_near(cross(bisecting.point, at30), {});
+  // Below 45 degrees it is the one in the acute angle, whatever the nominal says.
+  const Vec3 at40{std::cos(2 * kPi / 9), std::sin(2 * kPi / 9), 0};
+  check_near(made("MIDLI", Shape::line, {line({}, {1, 0, 0}), line({}, at40)}, {1, -3, 0}).direction,
+             -unit(at40 + Vec3{1, 0, 0}));
   // Lines at a right angle have two bisectors: the nominal chooses.
   check_near(made("MIDLI", Shape::line, {line({}, {1, 0, 0}), line({}, {0, 1, 0})}, {1, -1, 0}).direction,
              unit({1, -1, 0}));

@@ -157,6 +157,8 @@ TEST_CASE("two-sided features keep halves") {
   REQUIRE(planes);
   check_vector(planes.value.point, {0, 8, 0});
   CHECK(planes.value.size == 5);
+  // Points of the faces need not lie opposite each other.
+  CHECK(nominal("PARPLN", {{"x1", 40}, {"y1", 3}, {"j1", -1}, {"y2", 13}, {"j2", 1}}).value.size == 5);
   CHECK(
       nominal("RCTNGL", {{"i1", 1}, {"len1", 60}, {"j2", 1}, {"len2", 40}, {"k3", 1}, {"len3", 20}}).value.minor_size ==
       20);

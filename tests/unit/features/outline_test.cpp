@@ -170,6 +170,15 @@ TEST_CASE("Parallel planes have one normal, a width and a middle") {
   CHECK(std::fabs(dot(f.element.point - lean.p, f.element.direction)) < 1e-12);
   CHECK(f.element.high - f.element.low < 1e-12);
   CHECK(f.element.end == Approx(std::hypot(20, 3)).epsilon(1e-4));
+  // A bump of 0.04 amid four corners of each face leaves it by 4/5 of that, and the corners at -1/5: out of the width.
+  std::vector<Vec3> bumped;
+  for (const double side : {-1.0, 1.0})
+    for (const auto& [x, z, bump] :
+         {std::tuple{-20.0, -9.0, 0.0}, {20.0, -9.0, 0.0}, {-20.0, 9.0, 0.0}, {20.0, 9.0, 0.0}, {0.0, 0.0, 0.04}})
+      bumped.push_back({x, side * (5 + bump), z});
+  const Element rough = fit(Shape::parallel_planes, bumped, start).element;
+  CHECK(rough.high == Approx(0.032));
+  CHECK(rough.low == Approx(-0.008));
   CHECK(fit(Shape::symmetry_plane, {{0, 1, 0}, {9, 1, 0}, {0, 1, 9}, {9, 1, 9}}, start).failure ==
         "all touches lie on one side of the nominal median plane");
 }

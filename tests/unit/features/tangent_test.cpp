@@ -154,6 +154,8 @@ TEST_CASE("INTOF with round features takes the point nearer to the nominal") {
   check_near(made_near("INTOF", Shape::point, {ring, line({0, 5, 9}, {1, 0, 0})}, left).point, {-3, 5, 3});
   const Operand wall{Shape::plane, {.point = {0, 6, 0}, .direction = {0, 1, 0}}};
   check_near(made_near("INTOF", Shape::point, {wall, ring}, right).point, {4, 6, 3});
+  const Operand ramp{Shape::plane, {.point = {0, 9, 0}, .direction = {0, 0.8, 0.6}}};  // at z = 3 it is at y = 6.75
+  check_near(made_near("INTOF", Shape::point, {ramp, ring}, right).point, {1 + std::sqrt(25 - 4.75 * 4.75), 6.75, 3});
   check_near(
       made_near("INTOF", Shape::point, {circle({0, 0, 1}, 5), circle({6, 0, 1}, 5)}, {.point = {3, -9, 1}}).point,
       {3, -4, 1});
