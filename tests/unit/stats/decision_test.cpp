@@ -160,6 +160,15 @@ TEST_CASE("a share of exactly 95 % proves, and few errors count whole") {
   CHECK_THROWS_AS(guard_band(std::vector<double>{}, 0.0, 1.0), InternalError);
 }
 
+TEST_CASE("what errors of one sign alone disprove is undecided") {
+  // With two errors of -0.6 among twenty the true value may be 0.6 less than found, or more: a share of 10 % or none.
+  std::vector<double> errors(20, 0.0);
+  errors[3] = errors[4] = -0.6;
+  CHECK(decide(1.5, errors, {}, 1.0) == Conformity::undecided);
+  errors[4] = 0;
+  CHECK(decide(1.5, errors, {}, 1.0) == Conformity::does_not_conform);
+}
+
 TEST_CASE("verdicts have names") {
   CHECK(name(Conformity::conforms) == "conforms");
   CHECK(name(Conformity::undecided) == "undecided");

@@ -104,6 +104,16 @@ TEST_CASE("equal values have exactly no spread") {
   CHECK(s.symmetric.low == 0.1);
 }
 
+TEST_CASE("an outermost value is known no better than that of a normal law") {
+  // All 20 values at an end are equal, and the next one beyond the sample is not seen. The quantile p = 0.5 / 40 of a
+  // normal law has the standard error u sqrt(p (1 - p) / n) / phi(z), z = -2.2414: 0.543 u.
+  std::vector<double> sample(40, 1.0);
+  std::fill_n(sample.begin(), 20, -1.0);
+  const Summary s = summarize(sample);
+  const double p = 0.5 / 40, z = -2.2414, density = std::exp(-z * z / 2) / std::sqrt(2 * std::acos(-1.0));
+  CHECK(s.low_error == doctest::Approx(s.u * std::sqrt(p * (1 - p) / 40) / density).epsilon(0.01));
+}
+
 TEST_CASE("fewer than two values have no summary") {
   CHECK_THROWS_AS(summarize(std::vector<double>{1}), InternalError);
   CHECK_THROWS_AS(conformance_probability(std::vector<double>{}, 0.0, 1.0), InternalError);
