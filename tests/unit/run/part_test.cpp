@@ -206,6 +206,51 @@ TEST_CASE("a known form is in the reference, an unknown one only in the machines
   CHECK(b.samples[1].value[0] != b.samples[1].value[1]);
 }
 
+TEST_CASE("waves lie as their phase says, and what is not known of them too") {
+  // amplitude cos(n phi + phase), phi from x: two waves of 2 um at 30 degrees.
+  const plan::Plan plan = circle(false);
+  const auto at = [&](double degrees) {
+    const Vec3 out{std::cos(degrees * kPi / 180), std::sin(degrees * kPi / 180), 0};
+    const Element& nominal = plan.features[0].nominal;
+    return PlaceOnPart{{0}, nominal.point + 20 * out, out, nominal, {1, 0, 0}, {0, 1, 0}};
+  };
+  const auto with = [](const std::string& amplitude, const std::string& phase) {
+    return workpiece(R"("surfaces": {"F0": {"form": [{"undulations": 2, "amplitude_um": )" + amplitude +
+                     R"(, "phase_deg": )" + phase + "}]}}");
+  };
+  const auto doubt = [&](const Part& part, std::uint32_t machine, double degrees) {
+    const PlaceOnPart place = at(degrees);
+    return dot(part.error(part.draw({1, machine}), place, {}, {}, false, {}), place.normal);
+  };
+  const Workpiece known = with(R"({"value": 2, "u": 0.5})", "30"), unknown = with("2", R"("random")");
+  const Part part(known, plan);
+  for (const double degrees : {0.0, 20.0, 75.0, 200.0}) {
+    const double wave = std::cos((2 * degrees + 30) * kPi / 180);
+    CHECK(part.known_offset_mm(at(degrees)) == doctest::Approx(2e-3 * wave).scale(1e-3));
+    CHECK(doubt(part, 7, degrees) == doctest::Approx(doubt(part, 7, -15) * wave).scale(1e-3));  // a crest at -15
+  }
+  CHECK(std::fabs(doubt(part, 7, -15)) > 1e-5);
+  // Of unknown phase it is out and in alike everywhere: the mean of n has the standard deviation 2 um / sqrt(2 n).
+  const Part anywhere(unknown, plan);
+  constexpr int n = 400;
+  for (const double degrees : {0.0, 45.0}) {
+    double mean = 0;
+    for (std::uint32_t machine = 0; machine < n; ++machine) mean += doubt(anywhere, machine, degrees) / n;
+    CHECK(std::fabs(mean) < 4 * 2e-3 / std::sqrt(2.0 * n));
+  }
+}
+
+TEST_CASE("how large a random form is may be uncertain, too") {
+  const Workpiece w = workpiece(R"("surfaces": {"F0": {"random_form_um": {"value": 1, "u": 0.2}}})");
+  const plan::Plan plan = circle(false);
+  const Part part(w, plan);
+  std::vector<double> sd_mm;
+  constexpr int n = 1000;
+  for (std::uint32_t machine = 0; machine < n; ++machine)
+    sd_mm.push_back(part.draw({1, machine}).surfaces[0].random_sd_mm);
+  CHECK(std::fabs(variance(sd_mm) / (0.2e-3 * 0.2e-3) - 1) < 4 * std::sqrt(2.0 / (n - 1)));
+}
+
 TEST_CASE("a random form scatters like its standard deviation and belongs to the place") {
   const Workpiece w = workpiece(R"("surfaces": {"F0": {"random_form_um": 1}})");
   constexpr int n = 4000;
@@ -255,6 +300,24 @@ TEST_CASE("effects of the machine see the temperatures and the load of the workp
   const RunResult r = run_plan(length(), machine, screened_machines(machine, 1, 2, 1), options, no_source());
   // 1 ppm/K, 5 K, 500 mm.
   CHECK(r.samples[0].value[0] == doctest::Approx(500.0025).epsilon(1e-12));
+}
+
+TEST_CASE("a part without a coordinate system of its own grows from the middle of its touches") {
+  // 1 ppm/K more than known, at 25 degrees C: 250 mm from the middle 1.25 um, wherever the part stands in the machine.
+  PlanBuilder b;
+  b.append(plan::SelectSensor{b.sensor(0, 0, 150)});
+  Arguments a = nominal_zero();
+  a.add_text("axis", "XAXIS");
+  for (const double side : {-1.0, 1.0}) b.evaluate({b.point({750 + side * 250, 500, -500}, {side, 0, 0})}, "CORTOL", a);
+  Machine machine = read_machine("coord3-mc16");
+  machine.effects.push_back({"thermal.part_expansion", {{"cte_error_ppm_per_K", {1, 0, ""}}}});
+  const Workpiece w = workpiece(R"("material": {"cte_ppm_per_K": 0}, "temperature": {"part_C": 25})");
+  RunOptions options;
+  options.contributors.geometry = options.contributors.head = options.contributors.probe = false;
+  options.workpiece = &w;
+  const RunResult r = run_plan(b.plan, machine, screened_machines(machine, 1, 1, 1), options, no_source());
+  CHECK(r.samples[0].value[0] == doctest::Approx(-1.25e-3).scale(1e-3));
+  CHECK(r.samples[1].value[0] == doctest::Approx(1.25e-3).scale(1e-3));
 }
 
 TEST_CASE("effects of the machine see the temperatures that each virtual machine drew") {

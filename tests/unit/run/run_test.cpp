@@ -74,6 +74,55 @@ TEST_CASE("with two orientations the head's variance is that of the closed form"
   CHECK(std::fabs(variance(r.samples[0].value) / expected - 1) < 3.9 * std::sqrt(2.0 / (n - 1)));
 }
 
+TEST_CASE("both angles of the head err by themselves") {
+  // A = 45, B = 0: the tip at l (1, 0, -1) / sqrt 2 moves by l dA / sqrt 2 along x and by l dB / sqrt 2 along y. Along
+  // (1, 1, 0) / sqrt 2 that is l (dA + dB) / 2, of which 1 / sqrt 2 shows in y: var = l^2 (sdA^2 + sdB^2) / 8. The
+  // other point, touched along y by a tip straight below, shows neither angle.
+  PlanBuilder b;
+  const auto tilted = b.sensor(45, 0, 150), straight = b.sensor(0, 0, 150);
+  b.append(plan::SelectSensor{tilted});
+  const auto p = b.point({800, 400, -500}, unit({1, 1, 0}));
+  b.append(plan::SelectSensor{straight});
+  const auto q = b.point({800, 600, -500}, {0, 1, 0});
+  b.evaluate({p, q}, "DISTB", distance("YAXIS"));
+  const Machine machine = read_machine("coord3-mc16");
+  constexpr int n = 4000;
+  const double found = variance(
+      run_plan(b.plan, machine, screened_machines(machine, 1, n, 2), only_head(), no_source()).samples[0].value);
+  const HeadSpec& head = machine.head;
+  const double expected = 150.0 * 150 / 8 * (head.sd_a_rad * head.sd_a_rad + head.sd_b_rad * head.sd_b_rad);
+  CHECK(std::fabs(found / expected - 1) < 3.9 * std::sqrt(2.0 / (n - 1)));
+}
+
+TEST_CASE("the probe scatters along the axes of the head's last link, along each by itself") {
+  Machine machine = read_machine("coord3-mc16");
+  constexpr int n = 4000;
+  constexpr double kSd_mm = 1e-3;
+  RunOptions options = only_head();
+  options.contributors.head = false, options.contributors.probe = true;
+  const auto variance_of = [&](const plan::Plan& plan) {
+    return variance(
+        run_plan(plan, machine, screened_machines(machine, 1, n, 2), options, no_source()).samples[0].value);
+  };
+  const double chance = 3.9 * std::sqrt(2.0 / (n - 1));
+  // Along the stylus: at A = B = 90 that is y, where two touches see it; straight below they do not.
+  machine.probe.sd_mm = {0, 0, kSd_mm};
+  CHECK(std::fabs(variance_of(two_points(90, 90)) / (2 * kSd_mm * kSd_mm) - 1) < chance);
+  CHECK(variance_of(two_points(0, 0)) < 1e-20);
+  // Two axes alike: along a normal between them the same scatter as along each, of which 1 / sqrt 2 shows along each.
+  for (const auto& [first, second, axis] : {std::tuple{0, 1, "XAXIS"}, {1, 2, "YAXIS"}, {0, 2, "XAXIS"}}) {
+    machine.probe.sd_mm = {};
+    machine.probe.sd_mm[first] = machine.probe.sd_mm[second] = kSd_mm;
+    PlanBuilder b;
+    b.append(plan::SelectSensor{b.sensor(0, 0, 150)});
+    Vec3 normal;
+    normal[first] = normal[second] = std::sqrt(0.5);
+    const auto p = b.point({700, 400, -500}, normal), q = b.point({900, 600, -500}, normal);
+    b.evaluate({p, q}, "DISTB", distance(axis));
+    CHECK(std::fabs(variance_of(b.plan) / (kSd_mm * kSd_mm) - 1) < chance);
+  }
+}
+
 TEST_CASE("returning to an orientation indexes anew, selecting the same one again does not") {
   const Machine machine = read_machine("coord3-mc16");
   const auto distance_after = [&](bool leave) {

@@ -49,6 +49,26 @@ TEST_CASE("default touches of a relative measurement are displaced as well") {
   check_near(ran.output("C").point, {60.2, 20, 0});
 }
 
+TEST_CASE("default touches are displaced in the system that is current, wherever the feature was defined") {
+  // 0.2 along the old x, which is -y of the new system.
+  const Ran ran(face_and_bore() +
+                "F(C)=FEAT/CIRCLE,OUTER,CART,60,20,0,0,0,1,10\nD(T)=ROTATE/ZAXIS,90\n"
+                "RMEAS/CIRCLE,F(C),4,FA(BORE)\nENDMES\nOUTPUT/FA(C)\n");
+  check_near(ran.output("C").point, {20, -60.2, 0});
+}
+
+TEST_CASE("the vector of a touch may have any length, whether written or computed") {
+  const Ran ran(measured("P", "POINT,CART,0,300,0,0,-1,0", {"0,300,0,0,-1,0"}) + "Y=OBTAIN/FA(P),5\nK=ASSIGN/Y/150\n" +
+                measured("Q", "POINT,CART,10,20,0,0,0,1", {"10,20,0,0,0,K"}) + "OUTPUT/FA(Q)\n");
+  check_near(ran.output("Q").point, {10, 20, 0});
+}
+
+TEST_CASE("without compensation the profile is that of the centres of the tip") {
+  const std::string face =
+      "PRCOMP/OFF\n" + measured("F", "PLANE,CART,0,0,0,0,0,1", {"0,0,0,0,0,1", "50,0,0,0,0,1", "0,50,0,0,0,1"});
+  CHECK(Ran(face + "T(PROF)=TOL/PROFS,-.1,.1\nOUTPUT/FA(F),TA(PROF)\n")["PROF"] == Approx(0).scale(1));
+}
+
 TEST_CASE("a calibration measures its sphere") {
   const Ran ran("T(D)=TOL/DIAM,-1,1\n" +
                 measured("BALL", "SPHERE,OUTER,CART,0,0,0,20",
@@ -61,6 +81,9 @@ TEST_CASE("a calibration measures its sphere") {
 TEST_CASE("moves by a distance and home take the time of their ways") {
   const auto seconds = [](const std::string& moves) { return Ran("GOTO/0,0,100\n" + moves).result.cycle_time_s; };
   CHECK(seconds("GOTO/INCR,50,0,0,2\n") == Approx(seconds("GOTO/0,0,150\n")));
+  // After the turn y points up: from 100 by 50, and from there to 200.
+  CHECK(seconds("D(T)=ROTATE/XAXIS,90\nGOTO/INCR,50,0,1,0\nGOTO/0,200,0\n") ==
+        Approx(seconds("GOTO/0,0,150\nGOTO/0,0,200\n")));
   CHECK(seconds("FROM/0,0,300\nGOTO/0,0,200\nGOHOME\n") == Approx(seconds("GOTO/0,0,200\nGOTO/0,0,300\n")));
   CHECK(seconds("FROM/0,0,300\nD(T)=ROTATE/XAXIS,90\nGOHOME\n") == Approx(seconds("GOTO/0,0,300\n")));
   CHECK(seconds("GOHOME\n") == Approx(seconds("")));
