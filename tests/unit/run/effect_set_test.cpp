@@ -188,6 +188,23 @@ TEST_CASE("effect set: a machine has the same errors in any block, to the bit") 
   for (int i = 0; i < kMachines; ++i) CHECK(whole.get(i) == (i < 4 ? left.get(i) : right.get(i - 4)));
 }
 
+TEST_CASE("effect set: a period drawn beyond its plausible range is the nearest in it, a size is as it was drawn") {
+  EffectSetting cycle{"thermal.cycle", {{"period_s", {150, 100, ""}}, {"amplitude_um", {1, 2000, ""}}}};
+  const Effect& effect = *find_effect(cycle.name);
+  std::vector<std::uint32_t> machines(100);
+  std::iota(machines.begin(), machines.end(), 0u);
+  const EffectSet set({cycle}, EffectUse::left_in, "m");
+  const std::vector<double> theta = set.draw(kSeed, machines).theta[0];
+  const auto least = [&](std::size_t parameter) {
+    return *std::min_element(theta.begin() + static_cast<std::ptrdiff_t>(100 * parameter),
+                             theta.begin() + static_cast<std::ptrdiff_t>(100 * parameter + 100));
+  };
+  REQUIRE(effect.parameters[0].name == "amplitude_um");
+  REQUIRE(effect.parameters[1].name == "period_s");
+  CHECK(least(1) == 120);
+  CHECK(least(0) < -1000);
+}
+
 TEST_CASE("effect set: numbers do not depend on which other effects exist") {
   const std::vector<EffectSetting> settings = all_settings(UncertainParameters::everything);
   const auto machines = machines_from(100, kMachines);
