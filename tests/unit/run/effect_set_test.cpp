@@ -205,6 +205,15 @@ TEST_CASE("effect set: a period drawn beyond its plausible range is the nearest 
   CHECK(least(0) < -1000);
 }
 
+TEST_CASE("effect set: one standard deviation of a parameter moves a recorded touch by its share") {
+  RecordedTouch touch;
+  touch.scene.reading = {500, 0, 0};
+  const EffectSet set({{"machine.scale", {{"scale_um_per_m", {5, 2, ""}}}}}, EffectUse::left_in, "m");
+  REQUIRE(set.uncertainties().size() == 1);
+  CHECK(set.one_sd(set.uncertainties()[0], touch).x == doctest::Approx(1e-3).scale(0));  // 2 um/m over 500 mm
+  CHECK(set.estimate(touch).x == doctest::Approx(2.5e-3).scale(0));
+}
+
 TEST_CASE("effect set: numbers do not depend on which other effects exist") {
   const std::vector<EffectSetting> settings = all_settings(UncertainParameters::everything);
   const auto machines = machines_from(100, kMachines);

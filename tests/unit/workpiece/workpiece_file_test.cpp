@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "engine/workpiece/workpiece.hpp"
@@ -184,6 +185,64 @@ TEST_CASE("strain is the difference of part and scales, less what the compensati
   CHECK(off.y == doctest::Approx(11.5e-6 - 16e-6).scale(0));
   CHECK(on.x == doctest::Approx(1.5e-6).scale(0));
   CHECK(on.y == doctest::Approx(1.5e-6).scale(0));
+}
+
+TEST_CASE("the compensation goes by what each sensor says, and by what is assumed of part and scales") {
+  // At 20 degrees C nothing expands: what the errors of the sensors take out is all that is left.
+  const Workpiece w = parse(R"("material": {"cte_minus_scale_ppm_per_K": 1}, "scales": {"cte_ppm_per_K": 8},
+                               "compensation": {"on": true, "sensor_K": {"value": 0, "u": 0.1}})");
+  CHECK(w.assumed_part_cte_per_K == doctest::Approx(9e-6).scale(0));
+  ThermalDraw d;
+  d.part_sensor_K = 0.3, d.scale_sensor_K = {0.1, 0.2, -0.4};
+  const Vec3 e = strain(w, d, {}, true);
+  CHECK(e.x == doctest::Approx(-9e-6 * 0.3 + 8e-6 * 0.1).scale(0));
+  CHECK(e.y == doctest::Approx(-9e-6 * 0.3 + 8e-6 * 0.2).scale(0));
+  CHECK(e.z == doctest::Approx(-9e-6 * 0.3 - 8e-6 * 0.4).scale(0));
+  CHECK(w.part_temperature_acts(true));
+  CHECK(w.scale_temperature_acts(true));
+  CHECK_FALSE(w.part_temperature_acts(false));
+  CHECK_FALSE(w.scale_temperature_acts(false));
+}
+
+TEST_CASE("what is given relative to the scales shares their doubt") {
+  const Workpiece w = parse(
+      R"("material": {"cte_minus_scale_ppm_per_K": 1}, "scales": {"cte_ppm_per_K": {"value": 8, "u": 1}},
+         "temperature": {"scale_C": {"value": 22, "u": 0.5}, "part_minus_scale_K": 0.1})");
+  for (std::uint32_t machine = 0; machine < 5; ++machine) {
+    const ThermalDraw d = draw_thermal(w, {1, machine});
+    CHECK(d.scale_K[0] != 0);
+    CHECK(d.part_K == d.scale_K[0]);
+    CHECK(d.scale_cte_per_K != 8e-6);
+    CHECK(d.part_cte_per_K - d.scale_cte_per_K == doctest::Approx(1e-6).scale(0));
+  }
+}
+
+TEST_CASE("components of an uncertainty are independent, and all of them are in proportion to the unit") {
+  Uncertain q;
+  q.components = {{Distribution::normal, 1, 0}, {Distribution::normal, 1, 0}};
+  constexpr int n = 2000;
+  double squares = 0;
+  for (std::uint32_t machine = 0; machine < n; ++machine) {
+    const double d = deviation(q, "q", {1, machine});
+    squares += d * d / n;
+  }
+  CHECK(std::fabs(squares / 2 - 1) < 4 * std::sqrt(2.0 / n));
+  for (const Distribution kind : {Distribution::trapezoidal, Distribution::curvilinear_trapezoid}) {
+    Uncertain wide;
+    wide.components = {{kind, 2, 0.5}};
+    CHECK((1e-3 * wide).u() == doctest::Approx(1e-3 * wide.u()).scale(0));
+  }
+}
+
+TEST_CASE("of a recorded part only what is not known of its form is still to be added") {
+  const auto form = [](const std::string& amplitude, const std::string& phase) {
+    return parse(R"("surfaces": {"A": {"form": [{"undulations": 2, "amplitude_um": )" + amplitude +
+                 R"(, "phase_deg": )" + phase + "}]}}");
+  };
+  CHECK_FALSE(form("2", "15").has_form(true));
+  CHECK(form("2", "15").has_form(false));
+  CHECK(form(R"({"value": 2, "u": 0.1})", "15").has_form(true));
+  CHECK(form("2", R"("random")").has_form(true));
 }
 
 TEST_CASE("another uncertain quantity changes no number of the others") {
