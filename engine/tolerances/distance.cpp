@@ -84,6 +84,8 @@ Interval reach(Shape shape, const Element& feature, const Vec3& e, std::span<con
   switch (shape) {
     case Shape::sphere: return {-feature.size, feature.size};
     case Shape::circle:
+      if (feature.angle != 0) return {};  // an arc, which acts as a circle
+      [[fallthrough]];
     case Shape::torus: {
       const double circle = feature.size * std::sqrt(std::max(0.0, 1 - cosine * cosine)),
                    r = shape == Shape::torus ? circle + feature.minor_size : circle;

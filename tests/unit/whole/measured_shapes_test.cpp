@@ -43,6 +43,16 @@ TEST_CASE("a line of a surface is as straight as its section, an axis as its cyl
   CHECK(ran["C"] == Approx(0.2 / 11));
 }
 
+TEST_CASE("MAX and MIN of an arc are at its centre, of a circle at its rim") {
+  const std::vector<std::string> touches{"20,0,0,1,0,0", "12,16,0,.6,.8,0", "0,20,0,0,1,0"};
+  const auto farthest = [&](const std::string& form) {
+    return Ran(measured("R", form, touches) + measured("P", "POINT,CART,-100,0,0,-1,0,0", {"-100,0,0,-1,0,0"}) +
+               "T(D)=TOL/DISTB,NOMINL,100,-1,1,XAXIS,MAX\nOUTPUT/FA(R),FA(P),TA(D)\n")["D"];
+  };
+  CHECK(farthest("CIRCLE,OUTER,CART,0,0,0,0,0,1,40") == Approx(120));
+  CHECK(farthest("ARC,OUTER,CART,0,0,0,0,0,1,20,0,90") == Approx(100));
+}
+
 TEST_CASE("a median plane is judged without the touches of its faces") {
   const Ran ran(measured("BASE", "PLANE,CART,0,0,0,0,1,0", {"0,0,0,0,1,0", "50,0,0,0,1,0", "0,0,20,0,1,0"}) +
                 measured("SLOT", "PARPLN,INNER,MIDPL,CART,40,30,-5,0,1,0,10",
