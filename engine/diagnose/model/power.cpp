@@ -27,10 +27,11 @@ double exceeded_by(double share, std::vector<double> values) {
 
 }  // namespace
 
-Power::Power(const EvidenceSearch& of, std::uint64_t seed, int threads) : search_(of), seed_(seed) {
+Power::Power(const EvidenceSearch& of, const EvidenceSearch& machines, std::uint64_t seed, int threads)
+    : search_(of), seed_(seed) {
   const auto in_order = [&](int first, int count) {
     Matrix recordings(of.rows(), count);
-    for (int k = 0; k < count; ++k) recordings.col(k) = of.in_order(seed, first + k);
+    for (int k = 0; k < count; ++k) recordings.col(k) = machines.in_order(seed, first + k);
     return of.seen(recordings);
   };
   std::vector<double> statistics(kForAlarm);

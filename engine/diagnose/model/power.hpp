@@ -11,8 +11,8 @@ namespace abbe::diagnose {
 
 class Power {
  public:
-  /// `of`: outlives it.
-  Power(const EvidenceSearch& of, std::uint64_t seed, int threads);
+  /// `of`: outlives it. `machines`: whose recordings are simulated in order, at its level.
+  Power(const EvidenceSearch& of, const EvidenceSearch& machines, std::uint64_t seed, int threads);
 
   /// How many times a shift, um by row, must be there to be detected in 80 % of recordings; infinite beyond `most`.
   /// Several columns: a shift that each recording draws anew. `explanation`: which it is; `share`: what it has of the

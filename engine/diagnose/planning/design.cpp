@@ -277,14 +277,15 @@ class Design {
 }  // namespace
 
 std::vector<Detectable> smallest_detectable(const Case& c, const EvidenceSearch& search) {
-  // A plan has no values that would say how rough the machine may be: those of a machine in order.
+  // A plan has no values that would say how rough the machine may be: those of a machine in order. How large its errors
+  // and its noise are is stated, and not what these few values happen to be.
   std::optional<EvidenceSearch> of_plan;
   if (c.model.y.squaredNorm() == 0) {
     LinearModel model = c.model;
     model.y = search.in_order(c.options.seed, 0);
     of_plan.emplace(model, c.hyper, c.explanations);
   }
-  const Power power(of_plan ? *of_plan : search, c.options.seed, c.options.threads);
+  const Power power(of_plan ? *of_plan : search, search, c.options.seed, c.options.threads);
   const Design design(c, search, power);
   std::vector<std::optional<Detectable>> of(c.explanations.list.size());
   on_threads(static_cast<int>(of.size()), c.options.threads, [&](int k) {

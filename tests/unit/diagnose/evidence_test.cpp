@@ -307,7 +307,7 @@ TEST_CASE("four in five recordings show what the search is said to detect") {
   Matrix drawn(n, 2);
   drawn << all.variants[0].signature, all.variants[1].signature;
   drawn /= drawn.norm();
-  const Power power(search, 1, 2);
+  const Power power(search, search, 1, 2);
   const auto seen_share = [&](const Matrix& columns, double times) {
     int seen = 0;
     for (int k = 0; k < recordings; ++k) {
