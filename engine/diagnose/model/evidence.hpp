@@ -81,9 +81,11 @@ class EvidenceSearch {
   /// What one explanation has of each recording with some of another added to it, as many or one for all, as logarithms.
   Vector log_beliefs(const std::vector<Ensemble::Seen>& of, const std::vector<Ensemble::Seen>& added,
                      const Vector& times, int explanation) const;
-  /// A recording of a machine in order, at the level of the recording beside its likeliest explanation.
+  /// A recording of a machine in order, at the level of the recording beside its likeliest explanation; at that without
+  /// any where all explanations together are no likelier than none: the best of hundreds would take chance away.
   Vector in_order(std::uint64_t seed, int replicate) const {
-    return likely().simulated(with_.level, {}, seed, replicate);
+    const Baseline& level = evidence_.statistic > 0 ? with_ : alone_;
+    return ensembles_[level.ensemble].simulated(level.level, {}, seed, replicate);
   }
 
   /// Standardised residuals beside a variant of any size: each row against its prediction from all others.
