@@ -256,7 +256,7 @@ class Values(harness.Case):
         """One wrong value, and whatever of many sizes fits it: a form of the part was told with 0.57."""
         program = harness.ROOT / "examples/programs/prismatic_part.dmi"
         self.abbe("record", program, "-o", "touches.csv", "--dmo", "good.dmo")
-        values = self.write("bad.dmo", re.sub(r"TOL/PERP, 0\.00", "TOL/PERP, 0.02", (self.folder / "good.dmo").read_text()))
+        values = self.write("bad.dmo", re.sub(r"TOL/PERP, 0\.00", "TOL/PERP, 0.03", (self.folder / "good.dmo").read_text()))
         said = self.diagnosis(values, "--program", program)
         self.assertGreater(said["improvement"]["chi2_per_dof"]["after"], said["improvement"]["chi2_per_dof"]["before"])
         self.assertEqual([e["members"] for e in said["effects"] if e["probability"] > 0.5], [])

@@ -53,7 +53,8 @@ Judges judges_of(const Matrix& simulated, const Matrix& recorded, std::uint64_t 
 }
 
 ValueReference reference_of(const ValueCase& c) {
-  return {c.ensemble.values, *c.programs, *c.machine, *c.options, c.deviation, c.judges.covariance, c.recorded};
+  return {c.ensemble.values,    *c.programs, *c.machine,    *c.options,          c.ensemble.machines,
+          c.ensemble.simulated, c.deviation, c.judges.mean, c.judges.covariance, c.recorded};
 }
 
 std::string program_of(const ValueCase& c, std::size_t value) {

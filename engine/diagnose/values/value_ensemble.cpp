@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <set>
 #include <tuple>
 
@@ -234,11 +235,34 @@ std::vector<Eigen::Index> of_figures(const std::vector<RecordedValue>& values) {
 
 double RecordedValue::reported() const { return angle ? in_degrees(1) / kUradPerRad : 1 / kUmPerMm; }
 
-Matrix complete_rows(const Matrix& m) {
+VirtualMachines chosen(const VirtualMachines& all, const std::vector<Eigen::Index>& at) {
+  VirtualMachines out;
+  for (const Eigen::Index i : at) {
+    out.index.push_back(all.index[static_cast<std::size_t>(i)]);
+    out.geometry.push_back(all.geometry[static_cast<std::size_t>(i)]);
+    out.v.push_back(all.v[static_cast<std::size_t>(i)]);
+  }
+  return out;
+}
+
+VirtualMachines first_of(const VirtualMachines& all, Eigen::Index count) {
+  std::vector<Eigen::Index> first(static_cast<std::size_t>(std::min<Eigen::Index>(count, all.size())));
+  std::iota(first.begin(), first.end(), 0);
+  return chosen(all, first);
+}
+
+std::vector<Eigen::Index> complete_rows(const Matrix& m) {
   std::vector<Eigen::Index> kept;
   for (Eigen::Index i = 0; i < m.rows(); ++i)
     if (m.row(i).allFinite()) kept.push_back(i);
-  return Matrix(m(kept, Eigen::all));
+  return kept;
+}
+
+Matrix complete(const Matrix& m) { return m(complete_rows(m), Eigen::all); }
+
+std::vector<RecordedValue> one_repeat(std::vector<RecordedValue> values) {
+  for (RecordedValue& v : values) v.repeat = v.program;
+  return values;
 }
 
 Matrix simulated_values(const std::vector<RecordedValue>& values, const std::vector<ValueProgram>& programs,
@@ -284,11 +308,13 @@ Matrix as_recorded(Matrix m, const Matrix& recorded, std::uint64_t seed) {
 ValueEnsemble value_ensemble(const ValueRecording& recording, const std::vector<ValueProgram>& programs,
                              const Machine& machine, const DiagnoseOptions& options, int machines) {
   ValueEnsemble out;
-  const VirtualMachines sample = screened_machines(machine, options.seed, machines, options.threads);
-  EnsembleRuns runs(recording, machine, options, sample, out);
+  out.machines = screened_machines(machine, options.seed, machines, options.threads);
+  EnsembleRuns runs(recording, machine, options, out.machines, out);
   for (const OneRun& run : runs_of(recording, programs)) runs.add(run, programs[run.program]);
-  out.simulated = complete_rows(out.simulated);
-  out.explanations = value_explanations(out.values, programs, machine, sample, options);
+  out.explanations = value_explanations(out.values, programs, machine, out.machines, options);
+  const std::vector<Eigen::Index> reach = complete_rows(out.simulated);
+  out.simulated = Matrix(out.simulated(reach, Eigen::all));
+  out.machines = chosen(out.machines, reach);
   return out;
 }
 

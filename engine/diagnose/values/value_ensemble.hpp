@@ -27,19 +27,26 @@ std::vector<Eigen::Index> of_figures(const std::vector<RecordedValue>&);
 
 struct ValueEnsemble {
   std::vector<RecordedValue> values;
+  VirtualMachines machines;   ///< those that reach every value
   Matrix simulated;           ///< machines x values: deviations
   Explanations explanations;  ///< of the catalogue: signatures of the values
 };
 
-/// `machines` accepted machines; those that do not reach every value are left out.
+/// Of `machines` accepted machines.
 ValueEnsemble value_ensemble(const ValueRecording&, const std::vector<ValueProgram>&, const Machine&,
                              const DiagnoseOptions&, int machines);
 
 /// The same values of other machines: machines x values, NaN where one does not reach a value.
 Matrix simulated_values(const std::vector<RecordedValue>&, const std::vector<ValueProgram>&, const Machine&,
                         const VirtualMachines&, const DiagnoseOptions&, const Contributors& = {});
-/// The machines that reach every value.
-Matrix complete_rows(const Matrix&);
+/// Some of the machines, by position; the first ones.
+VirtualMachines chosen(const VirtualMachines&, const std::vector<Eigen::Index>&);
+VirtualMachines first_of(const VirtualMachines&, Eigen::Index count);
+/// The machines (rows) that reach every value.
+std::vector<Eigen::Index> complete_rows(const Matrix&);
+Matrix complete(const Matrix&);
+/// The same values, all of one repeat of each program: in expectation repeats are alike.
+std::vector<RecordedValue> one_repeat(std::vector<RecordedValue>);
 /// Simulated machines (rows) as they would be recorded: each with its own errors of calibration and of rounding, of which
 /// every column of `recorded` is a standard deviation.
 Matrix as_recorded(Matrix machines, const Matrix& recorded, std::uint64_t seed);

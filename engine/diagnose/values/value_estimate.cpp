@@ -11,9 +11,10 @@ namespace abbe::diagnose {
 
 namespace {
 
-constexpr int kNewtonSteps = 4;
+constexpr int kNewtonSteps = 4;    // until sizes settle, and so many again once all machines have told
 constexpr double kWide = 30;       // typical sizes: a prior that does not pull
 constexpr double kSettled = 0.05;  // standard uncertainties
+constexpr double kAdds = 0.02;     // standard deviations: what differs so little among machines adds to their values
 constexpr double kMove = 0.1;      // typical sizes, for the derivatives; they are taken on the same machines
 constexpr std::size_t kFirst = 8, kMost = 24;  // variants
 constexpr double kNearBest = 6;                // nats
@@ -33,15 +34,23 @@ Vector possible_sizes(const Effect& effect, const Variant& variant, Vector sizes
   return sizes;
 }
 
+Vector variances(const Matrix& machines) {
+  return (machines.rowwise() - machines.colwise().mean()).colwise().squaredNorm() / double(machines.rows() - 1);
+}
+
+/// Correlated as values of machines without the effect are, with the scatter that these have with it.
+Matrix rescaled(const Matrix& machines, const ValueReference& b) {
+  const Vector variance = variances(machines) + b.recorded.rowwise().squaredNorm();
+  const Vector by = ((variance.array() + kLeastOfValue_um * kLeastOfValue_um) / b.covariance.diagonal().array()).sqrt();
+  return by.asDiagonal() * b.covariance * by.asDiagonal();
+}
+
 /// Of few machines: what their number leaves open of the correlations is that of machines without the effect.
 Matrix covariance_of(const Matrix& machines, const ValueReference& b) {
   const Matrix centred = machines.rowwise() - machines.colwise().mean();
-  const Matrix recorded = b.recorded * b.recorded.transpose();
-  const Matrix seen = centred.transpose() * centred / double(machines.rows() - 1) + recorded;
-  const Vector by =
-      (seen.diagonal().array() + kLeastOfValue_um * kLeastOfValue_um).sqrt() / b.covariance.diagonal().array().sqrt();
+  const Matrix seen = centred.transpose() * centred / double(machines.rows() - 1) + b.recorded * b.recorded.transpose();
   const double share = double(machines.rows()) / double(machines.rows() + machines.cols());
-  return share * seen + (1 - share) * Matrix(by.asDiagonal() * b.covariance * by.asDiagonal());
+  return share * seen + (1 - share) * rescaled(machines, b);
 }
 
 /// Fewer would make the scatter that a covariance is estimated with, of so many values, look like a mismatch.
@@ -50,56 +59,139 @@ int machines_beside(std::size_t values) {
   return static_cast<int>(std::min(kLeast + kOfValue * values, kMostMachines));
 }
 
+/// What an effect of some size does to values, as a few machines tell: differences on the same machines need no more.
+struct OnFew {
+  Matrix um;     ///< machines x values: deviations
+  Vector added;  ///< to each value, on average
+  Matrix covariance;
+  bool adds = false;  ///< the same on all of them: the covariance is that of machines without the effect
+};
+
+/// What all machines tell that the few cannot.
+struct OnAll {
+  Vector added;
+  Matrix covariance;
+};
+
+/// Slopes that a step of the sizes has shown to be others than they were (Broyden 1965).
+void follow(Matrix& slopes, const Vector& step, const Vector& change) {
+  if (const double squared = step.squaredNorm(); squared > 0)
+    slopes += (change - slopes * step) * step.transpose() / squared;
+}
+
 class ValueEstimator {
  public:
   explicit ValueEstimator(const ValueReference& b)
       : reference_(b),
-        machines_(screened_machines(b.machine, b.options.seed, machines_beside(b.values.size()), b.options.threads)),
-        without_(simulated_values(b.values, b.programs, b.machine, machines_, b.options)) {}
+        few_(first_of(b.machines, kFew)),
+        all_(first_of(b.machines, machines_beside(b.values.size()))),
+        once_(one_repeat(b.values)),
+        without_(simulated_values(once_, b.programs, b.machine, few_, b.options)) {}
 
   /// Nothing where hardly a machine with the effect reaches the values.
   std::optional<BesideErrors> estimate(const Effect&, const Variant&, const Vector& start) const;
 
  private:
+  static constexpr int kFew = 100;
+
+  Matrix few_with(const Effect&, const Variant&, const Vector& sizes) const;
+  std::optional<OnFew> on_few(const Effect&, const Variant&, const Vector& sizes) const;
+  /// Derivatives by the sizes: values x columns.
+  std::optional<Matrix> slopes_at(const Effect&, const Variant&, const Vector& sizes, const OnFew&) const;
+  std::optional<OnAll> on_all(const Effect&, const Variant&, const Vector& sizes) const;
+
   const ValueReference& reference_;
-  VirtualMachines machines_;
-  Matrix without_;  ///< machines x values: deviations without an effect
+  VirtualMachines few_, all_;
+  std::vector<RecordedValue> once_;
+  Matrix without_;  ///< of the few: deviations without an effect
 };
+
+bool hardly_any(const Matrix& reached, const VirtualMachines& of) { return reached.rows() < of.size() / 4; }
+
+Matrix ValueEstimator::few_with(const Effect& effect, const Variant& variant, const Vector& sizes) const {
+  const ValueReference& b = reference_;
+  return simulated_values(once_, b.programs, with_effect(b.machine, effect, variant, sizes), few_, b.options);
+}
+
+std::optional<OnFew> ValueEstimator::on_few(const Effect& effect, const Variant& variant, const Vector& sizes) const {
+  const ValueReference& b = reference_;
+  OnFew out{few_with(effect, variant, sizes), {}, b.covariance};
+  const Matrix added = complete(out.um - without_);
+  if (hardly_any(added, few_)) return std::nullopt;
+  out.added = added.colwise().mean();
+  out.adds = (variances(added).array() < kAdds * kAdds * b.covariance.diagonal().array()).all();
+  if (!out.adds) out.covariance = rescaled(complete(out.um), b);
+  return out;
+}
+
+std::optional<Matrix> ValueEstimator::slopes_at(const Effect& effect, const Variant& variant, const Vector& sizes,
+                                                const OnFew& few) const {
+  Matrix out(few.um.cols(), sizes.size());
+  for (Eigen::Index k = 0; k < sizes.size(); ++k) {
+    const double move = move_within_range(effect, variant, sizes, k);
+    const Matrix moved = complete(few_with(effect, variant, sizes + move * Vector::Unit(sizes.size(), k)) - few.um);
+    if (hardly_any(moved, few_)) return std::nullopt;
+    out.col(k) = moved.colwise().mean() / move;
+  }
+  return out;
+}
+
+std::optional<OnAll> ValueEstimator::on_all(const Effect& effect, const Variant& variant, const Vector& sizes) const {
+  const ValueReference& b = reference_;
+  const Eigen::Index n = b.simulated.cols();
+  Matrix side_by_side(all_.size(), 2 * n);
+  side_by_side << b.simulated.topRows(all_.size()),
+      simulated_values(b.values, b.programs, with_effect(b.machine, effect, variant, sizes), all_, b.options);
+  const Matrix reached = complete(side_by_side);
+  if (hardly_any(reached, all_)) return std::nullopt;
+  const Matrix with = reached.rightCols(n);
+  return OnAll{(with - reached.leftCols(n)).colwise().mean(), covariance_of(with, b)};
+}
 
 std::optional<BesideErrors> ValueEstimator::estimate(const Effect& effect, const Variant& variant,
                                                      const Vector& start) const {
   const ValueReference& b = reference_;
-  const auto values_at = [&](const Vector& sizes) {
-    return simulated_values(b.values, b.programs, with_effect(b.machine, effect, variant, sizes), machines_, b.options);
-  };
   BesideErrors out;
   out.sizes.mean = start;
-  for (int step = 0; step < kNewtonSteps; ++step) {
-    const Vector at = possible_sizes(effect, variant, out.sizes.mean);
-    const Eigen::Index n = without_.cols(), columns = at.size();
-    Matrix together(without_.rows(), (columns + 2) * n);  // next to each other: without, with, beside each derivative
-    together << without_, values_at(at), Matrix(without_.rows(), columns * n);
-    Vector move(columns);
-    for (Eigen::Index k = 0; k < columns; ++k) {
-      move(k) = move_within_range(effect, variant, at, k);
-      together.middleCols((k + 2) * n, n) = values_at(at + move(k) * Vector::Unit(columns, k));
+  Vector at, added;
+  std::optional<Matrix> slopes;
+  std::optional<OnAll> all;
+  Vector beyond_few = Vector::Zero(b.deviation.size());
+  // First to where sizes settle; then once more, with the slopes of that place and what all machines say there.
+  bool settled = false, closer = false;
+  for (int step = 0;;) {
+    const Vector from = at, added_there = added;
+    at = possible_sizes(effect, variant, out.sizes.mean);
+    const std::optional<OnFew> few = on_few(effect, variant, at);
+    if (!few) return std::nullopt;
+    added = few->added;
+    const bool anew = !slopes || (settled && !closer);
+    if (anew)
+      slopes = slopes_at(effect, variant, at, *few);
+    else
+      follow(*slopes, at - from, added - added_there);
+    if (!slopes) return std::nullopt;
+    if (settled && !closer) {
+      closer = true, step = 0;
+      if (!few->adds) {
+        all = on_all(effect, variant, at);
+        if (!all) return std::nullopt;
+        beyond_few = all->added - added;
+      }
     }
-    together = complete_rows(together);
-    if (together.rows() < without_.rows() / 4) return std::nullopt;
-    const Vector means = together.colwise().mean(), here = means.segment(n, n);
-    Matrix slopes(n, columns);
-    for (Eigen::Index k = 0; k < columns; ++k) slopes.col(k) = (means.segment((k + 2) * n, n) - here) / move(k);
-    const Matrix covariance = covariance_of(together.middleCols(n, n), b);
-    const Matrix weighted = Cholesky(covariance).solve(slopes);
-    const Matrix information = slopes.transpose() * weighted + Matrix::Identity(columns, columns) / (kWide * kWide);
+    const Matrix& covariance = all ? all->covariance : few->covariance;
+    const Vector here = added + beyond_few;
+    const Matrix weighted = Cholesky(covariance).solve(*slopes);
+    const Matrix information =
+        slopes->transpose() * weighted + Matrix::Identity(at.size(), at.size()) / (kWide * kWide);
     const Matrix gain = Cholesky(information).solve(Matrix(weighted.transpose()));
-    out.sizes.covariance = gain * covariance * gain.transpose();
-    out.near = {slopes, here - means.head(n) - slopes * at, covariance};
-    out.sizes.mean = at + gain * (b.deviation - here);
+    out.near = {*slopes, here - *slopes * at, covariance};
+    out.sizes = {at + gain * (b.deviation - b.mean - here), gain * covariance * gain.transpose(), !all};
     const Vector change = possible_sizes(effect, variant, out.sizes.mean) - at;
-    if ((change.array().abs() < kSettled * out.sizes.covariance.diagonal().array().sqrt()).all()) break;
+    settled = (change.array().abs() < kSettled * out.sizes.covariance.diagonal().array().sqrt()).all() ||
+        ++step >= kNewtonSteps;
+    if (settled && (closer || (anew && few->adds))) return out;
   }
-  return out;
 }
 
 /// Among the variants that were not tried, the one to look at next: the best of each of the first explanations, then
@@ -135,7 +227,7 @@ double move_within_range(const Effect& effect, const Variant& variant, const Vec
 Sizes sizes_of(const ValueSearch& search, int variant, const Vector& deviation) {
   const Information info = search.information(variant, deviation);
   const Cholesky root(info.g, 1 / (kWide * kWide));
-  return {root.solve(info.u), root.inverse()};
+  return {root.solve(info.u), root.inverse(), false};
 }
 
 Machine with_effect(const Machine& machine, const Effect& effect, const Variant& variant, const Vector& sizes) {

@@ -16,6 +16,7 @@ inline constexpr double kLeastOfValue_um = 1e-3;
 struct Sizes {
   Vector mean;
   Matrix covariance;
+  bool adds = false;  ///< what the effect does to values is the same on every machine
 };
 
 /// Under a prior so wide that it does not pull.
@@ -27,13 +28,18 @@ struct ValueReference {
   const std::vector<ValueProgram>& programs;
   const Machine& machine;
   const DiagnoseOptions& options;
-  const Vector& deviation;   ///< of the recording
-  const Matrix& covariance;  ///< of the values of machines of the specification, as they are recorded
-  const Matrix& recorded;    ///< a column for each error of calibration and of rounding: a standard deviation
+  const VirtualMachines& machines;  ///< of the specification, and their deviations: machines x values
+  const Matrix& simulated;
+  const Vector& deviation;  ///< of the recording
+  const Vector& mean;       ///< of values of machines of the specification, as they are recorded, and their covariance
+  const Matrix& covariance;
+  const Matrix& recorded;  ///< a column for each error of calibration and of rounding: a standard deviation
 };
 
 /// Makes the likeliest variants of the catalogue linear near the sizes that fit best (Gauss-Newton steps weighted by the
-/// covariance, with the mean of simulated machines as the model), so that their evidence is that beside errors.
+/// covariance, with the mean of simulated machines as the model), so that their evidence is that beside errors. Means are
+/// taken as differences on the same machines, of which few tell them; a covariance takes many, and is asked for once, or not
+/// at all where what the effect adds is the same on all machines.
 /// Returns the sizes by variant, with the spread of the simulated machines under the effect as the uncertainty; a variant
 /// that hardly any machine reaches all values with is left as it was.
 std::map<int, Sizes> linearise_likeliest(ValueSearch&, const ValueReference&);

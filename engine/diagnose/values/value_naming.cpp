@@ -37,15 +37,21 @@ double adequacy_of(const ValueCase& c, const Closer& closer, const Finding& name
   const auto found = closer.sizes.find(name.variant);
   if (found == closer.sizes.end()) return left_by_chance(c, closer, name);
   const Variant& variant = closer.variant(name);
+  const auto chance_beside = [&](const Judges& with) {
+    return chance_of(c, ValueSearch(with.mean, with.covariance, c.search->explanations(), variant.signature),
+                     with.judged);
+  };
+  if (found->second.adds) {
+    Judges with = c.judges;
+    const Vector added = closer.search.predicted(name.variant, found->second.mean);
+    with.mean += added, with.judged.rowwise() += added.transpose();
+    return chance_beside(with);
+  }
   const Machine planted = with_effect(*c.machine, *closer.explanation(name).effect, variant, found->second.mean);
-  const VirtualMachines machines =
-      screened_machines(*c.machine, c.options->seed, machines_for(c.deviation.size()), c.options->threads);
   const Matrix simulated =
-      complete_rows(simulated_values(c.ensemble.values, *c.programs, planted, machines, *c.options));
+      complete(simulated_values(c.ensemble.values, *c.programs, planted, c.ensemble.machines, *c.options));
   if (!enough(simulated)) return left_by_chance(c, closer, name);
-  const Judges judges = judges_of(simulated, c.recorded, c.options->seed);
-  return chance_of(c, ValueSearch(judges.mean, judges.covariance, c.search->explanations(), variant.signature),
-                   judges.judged);
+  return chance_beside(judges_of(simulated, c.recorded, c.options->seed));
 }
 
 /// Of a set those first that need nothing untold.

@@ -50,7 +50,7 @@ class Detection {
         reference_(reference),
         options_(reference.options),
         alarm_(alarm),
-        machines_(screened_machines(reference.machine, reference.options.seed, kMachines, reference.options.threads)) {
+        machines_(first_of(reference.machines, kMachines)) {
     options_.threads = 1;  // effects are on threads
   }
 
@@ -81,7 +81,7 @@ class Detection {
   double share_of_alarms(const Effect& effect, const Variant& variant, const Vector& sizes) const {
     const Machine with = with_effect(reference_.machine, effect, variant, sizes);
     const Matrix reached =
-        complete_rows(simulated_values(reference_.values, reference_.programs, with, machines_, options_));
+        complete(simulated_values(reference_.values, reference_.programs, with, machines_, options_));
     const std::vector<double> statistics =
         statistics_of(search_, as_recorded(reached, reference_.recorded, options_.seed));
     const auto alarms =
