@@ -1,10 +1,14 @@
 #include "engine/diagnose/baseline/rough_geometry.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <span>
 #include <utility>
 
+#include "engine/base/on_threads.hpp"
 #include "engine/diagnose/model/explanation.hpp"
+#include "engine/lanes/random.hpp"
 #include "engine/machine/geometry.hpp"
 
 namespace abbe::diagnose {
@@ -213,6 +217,18 @@ std::vector<Matrix> functions_and_guides(const std::vector<Matrix>& functions) {
   return out;
 }
 
+/// Standard normal, of one machine: functions x error functions.
+Matrix normal_draws(std::uint64_t seed, std::uint32_t machine, Eigen::Index functions) {
+  constexpr std::uint32_t stream = stream_of("rough geometry");
+  const int pairs = static_cast<int>((functions * kComponents + 1) / 2);
+  const std::vector<std::uint32_t> machines(static_cast<std::size_t>(pairs), machine);
+  std::vector<std::uint32_t> visit(static_cast<std::size_t>(pairs));
+  std::iota(visit.begin(), visit.end(), 0);
+  std::vector<double> z(2 * static_cast<std::size_t>(pairs));
+  normal_pairs(pairs, seed, machines.data(), stream, 0, visit.data(), 0, z.data(), z.data() + pairs);
+  return Eigen::Map<const Matrix>(z.data(), functions, kComponents);
+}
+
 }  // namespace
 
 RoughGeometry rough_geometry(const RecordedTouches& t, const Machine& machine) {
@@ -220,6 +236,30 @@ RoughGeometry rough_geometry(const RecordedTouches& t, const Machine& machine) {
   const Functions functions(kLengths, kLine);
   return {side_by_side(error_functions(t, machine, functions)),
           as_harmonics(machine, nearest_harmonics(machine, functions))};
+}
+
+RoughMachines rough_machines(const Machine& machine, std::uint64_t seed, int count, int threads) {
+  RoughMachines out{machine, {}};
+  out.machine.harmonics = std::max(machine.harmonics, kKnots - 1);
+  Machine straight = out.machine;  // but for its squarenesses
+  for (ComponentSpec& component : straight.components) component.e_max = 0;
+  const GeometryCoefficients known = draw_geometry(straight, seed, 0);
+  const Matrix nearest = nearest_harmonics(out.machine, Functions(kLengths, 0));
+  const Specification& spec = machine.specification;
+  VirtualMachines& all = out.machines;
+  all.index.resize(count), all.v.resize(count), all.geometry.resize(count, known);
+  std::iota(all.index.begin(), all.index.end(), 0);
+  on_threads(count, threads, [&](int i) {
+    Matrix functions = nearest * normal_draws(seed, all.index[i], nearest.cols());  // basis x error functions
+    for (int c = 0; c < kComponents; ++c) functions.col(c) *= size_of(machine, c);
+    const double share = uniform_pair({seed, all.index[i], stream_of("rough geometry"), 1, 0, 0}).a;
+    all.v[i] = 1 / (share / spec.v_min + (1 - share) / spec.v_max);
+    const GeometryCoefficients drawn(functions.data(), functions.data() + functions.size());
+    const double v = virtual_acceptance_test(out.machine, drawn).v;
+    const double factor = std::isfinite(v) ? v / all.v[i] : 0;  // of a machine without errors there is nothing to size
+    for (std::size_t k = 0; k < drawn.size(); ++k) all.geometry[i][k] += factor * drawn[k];
+  });
+  return out;
 }
 
 std::vector<Matrix> uneven_functions(const RecordedTouches& t, const Machine& machine) {

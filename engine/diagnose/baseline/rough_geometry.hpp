@@ -6,8 +6,11 @@
 // machine, not of physics left out. [Rasmussen & Williams 2006, 4.2.1; 8.3.1 for the columns]
 #pragma once
 
+#include <cstdint>
+
 #include "engine/diagnose/model/linear.hpp"
 #include "engine/machine/machine.hpp"
+#include "engine/machine/screening.hpp"
 #include "engine/run/recorded/touch.hpp"
 
 namespace abbe::diagnose {
@@ -20,6 +23,14 @@ struct RoughGeometry {
 
 /// The straight lines of scale and squareness are larger than waviness.
 RoughGeometry rough_geometry(const RecordedTouches&, const Machine&);
+
+/// Virtual machines with such errors, but for the straight lines that machines of the specification have, and the machine that has the harmonics for them. Each is as large as the
+/// specification lets it be: of the MPE its worst length takes a share that is drawn evenly between those of v_max and v_min.
+struct RoughMachines {
+  Machine machine;
+  VirtualMachines machines;
+};
+RoughMachines rough_machines(const Machine&, std::uint64_t seed, int count, int threads);
 
 /// Each error function by itself, of short length only and without a line, in the order of the components; then all
 /// those of each axis together; then, for each axis, its straightnesses and its angles by themselves as a wavy rail makes

@@ -12,7 +12,8 @@ namespace abbe::diagnose {
 
 namespace {
 
-constexpr int kHalf = 1000, kPerValue = 10, kMostValues = 500;
+constexpr int kHalf = 1000, kPerValue = 10;
+constexpr std::size_t kMostValues = 500;
 
 /// The steps to which values of the kind of value `k`, lengths or angles, are rounded: those of the one with the most
 /// digits, since zeros at the end may be left out.
@@ -38,7 +39,7 @@ std::vector<std::string> labels_of(const ValueCase& c) {
   return out;
 }
 
-int machines_for(Eigen::Index values) { return 2 * (kHalf + kPerValue * static_cast<int>(values)); }
+int machines_for(std::size_t values) { return 2 * (kHalf + kPerValue * static_cast<int>(values)); }
 bool enough(const Matrix& simulated) { return simulated.rows() / 2 >= simulated.cols() + 2; }
 
 Judges judges_of(const Matrix& simulated, const Matrix& recorded, std::uint64_t seed) {
@@ -63,25 +64,27 @@ std::string program_of(const ValueCase& c, std::size_t value) {
   return said.empty() ? std::filesystem::path(source.name()).filename().string() : said;
 }
 
-ValueCase value_case_of(const ValueRecording& recording, const std::vector<ValueProgram>& programs,
-                        const Machine& machine, const DiagnoseOptions& options) {
-  const int n = static_cast<int>(recording.rows.size());
+void refuse_too_many(const ValueRecording& recording) {
+  const std::size_t n = recording.rows.size();
   if (n > kMostValues)
     throw UserError(diagnostic(Code::E0552, fmt::format("{}: {} values are too many", recording.source.name(), n),
                                fmt::format("at most {} are judged together; split the file", kMostValues)));
+}
+
+std::optional<ValueCase> value_case_of(const ValueRecording& recording, const std::vector<ValueProgram>& programs,
+                                       const Machine& machine, const VirtualMachines& machines,
+                                       const DiagnoseOptions& options) {
+  const int n = static_cast<int>(recording.rows.size());
   ValueCase c;
   c.recording = &recording, c.programs = &programs, c.machine = &machine, c.options = &options;
-  c.ensemble = value_ensemble(recording, programs, machine, options, machines_for(n));
+  c.ensemble = value_ensemble(recording, programs, machine, machines, options);
   c.deviation.resize(n), c.recorded.setZero(n, 2 * n);
   for (int k = 0; k < n; ++k) {
     const RecordedValue& v = c.ensemble.values[k];
     c.deviation(k) = v.deviation, c.recorded(k, v.artefact) = v.calibration;
     c.recorded(k, n + k) = step_of(c, k) / std::sqrt(12.0);
   }
-  if (!enough(c.ensemble.simulated))
-    throw UserError(diagnostic(
-        Code::E0553, fmt::format("{}: hardly any virtual machine reaches all of these values", recording.source.name()),
-        "`abbe run` says where they stop"));
+  if (!enough(c.ensemble.simulated)) return std::nullopt;
   c.judges = judges_of(c.ensemble.simulated, c.recorded, options.seed);
   add_value_patterns(labels_of(c), c.judges.covariance, c.ensemble.explanations);
   c.search.emplace(c.judges.mean, c.judges.covariance, c.ensemble.explanations);

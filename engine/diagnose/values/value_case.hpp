@@ -31,12 +31,15 @@ struct ValueCase {
   std::optional<ValueSearch> search;
 };
 
-/// Throws UserError: too many values (E0552), or machines that do not reach them (E0553).
-ValueCase value_case_of(const ValueRecording&, const std::vector<ValueProgram>&, const Machine&,
-                        const DiagnoseOptions&);
+/// Throws UserError: too many values (E0552).
+void refuse_too_many(const ValueRecording&);
+
+/// Beside these machines; nothing where hardly any of them reaches all values.
+std::optional<ValueCase> value_case_of(const ValueRecording&, const std::vector<ValueProgram>&, const Machine&,
+                                       const VirtualMachines&, const DiagnoseOptions&);
 
 /// How many virtual machines judge so many values.
-int machines_for(Eigen::Index values);
+int machines_for(std::size_t values);
 /// Whether these machines (rows) are enough to judge their values.
 bool enough(const Matrix& simulated);
 /// `simulated`: machines x values, more than twice as many machines as values.

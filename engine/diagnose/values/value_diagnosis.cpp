@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/diagnose/baseline/rough_geometry.hpp"
 #include "engine/diagnose/explanations/catalogue.hpp"
 #include "engine/diagnose/quantile.hpp"
 #include "engine/diagnose/values/value_checks.hpp"
@@ -53,12 +54,48 @@ void tell_references_only(const ValueCase& c, Diagnosis& out) {
   out.otherwise = "Record measured values: those of a real machine differ from their references in the last digits.";
 }
 
+/// How often machines look as unusual to the search of a case as the recording does; `machines`: what it says of them.
+double p_value_of(const ValueCase& c, const std::vector<double>& machines) {
+  return tail_probability(c.search->evidence(c.deviation).statistic, machines);
+}
+
+/// The case beside machines in order.
+ValueCase specified_case(const ValueRecording& recording, const std::vector<ValueProgram>& programs,
+                         const Machine& machine, const DiagnoseOptions& options) {
+  std::optional<ValueCase> c = value_case_of(
+      recording, programs, machine,
+      screened_machines(machine, options.seed, machines_for(recording.rows.size()), options.threads), options);
+  if (!c)
+    throw UserError(diagnostic(
+        Code::E0553, fmt::format("{}: hardly any virtual machine reaches all of these values", recording.source.name()),
+        "`abbe run` says where they stop"));
+  return std::move(*c);
+}
+
+/// What sets the recording apart from machines in order.
+void tell_mismatch(const ValueCase& c, Diagnosis& out) {
+  tell_explanation(c, Closer(c), out);
+  if (const std::string unit = doubt_of_micrometres(c); !unit.empty())
+    out.otherwise = unit + (out.otherwise.empty() ? "" : " ") + out.otherwise;
+  const auto worst =
+      std::max_element(out.values.begin(), out.values.end(),
+                       [](const JudgedValue& a, const JudgedValue& b) { return std::abs(a.z) < std::abs(b.z); });
+  double squares = 0;
+  for (const JudgedValue& v : out.values) squares += v.z * v.z;
+  out.location.push_back(
+      {"feature",
+       {{"characteristic", worst->characteristic}, {"program", worst->program}, {"run", std::to_string(worst->run)}},
+       worst->z * worst->z / squares,
+       std::min(1.0, worst->p * double(out.values.size()))});
+}
+
 }  // namespace
 
 Diagnosis diagnose_values(const ValueRecording& recording, const std::vector<ValueProgram>& programs,
                           const Machine& machine, const DiagnoseOptions& options) {
   begins(options.progress, "virtual machines of the specification, and every effect on them");
-  const ValueCase c = value_case_of(recording, programs, machine, options);
+  refuse_too_many(recording);
+  const ValueCase c = specified_case(recording, programs, machine, options);
   const bool references_only = holds_references_only(c);
   if (!options.design_only && !references_only) refuse_copied_values(c);
   Diagnosis out;
@@ -75,22 +112,17 @@ Diagnosis diagnose_values(const ValueRecording& recording, const std::vector<Val
     tell_references_only(c, out);
     return out;
   }
-  out.p_value = tail_probability(c.search->evidence(c.deviation).statistic, in_order);
+  out.p_value = p_value_of(c, in_order);
+  if (out.p_value > kAlarm) return out;
+  begins(options.progress, "virtual machines with rougher errors");
+  const RoughMachines rough =
+      rough_machines(machine, options.seed, machines_for(recording.rows.size()), options.threads);
+  const std::optional<ValueCase> rougher = value_case_of(recording, programs, rough.machine, rough.machines, options);
+  if (rougher)
+    out.p_value = std::max(out.p_value, p_value_of(*rougher, statistics_of(*rougher->search, rougher->judges.judged)));
   if (out.p_value > kAlarm) return out;
   begins(options.progress, "sizes of what was found");
-  tell_explanation(c, Closer(c), out);
-  if (const std::string unit = doubt_of_micrometres(c); !unit.empty())
-    out.otherwise = unit + (out.otherwise.empty() ? "" : " ") + out.otherwise;
-  const auto worst =
-      std::max_element(out.values.begin(), out.values.end(),
-                       [](const JudgedValue& a, const JudgedValue& b) { return std::abs(a.z) < std::abs(b.z); });
-  double squares = 0;
-  for (const JudgedValue& v : out.values) squares += v.z * v.z;
-  out.location.push_back(
-      {"feature",
-       {{"characteristic", worst->characteristic}, {"program", worst->program}, {"run", std::to_string(worst->run)}},
-       worst->z * worst->z / squares,
-       std::min(1.0, worst->p * double(out.values.size()))});
+  tell_mismatch(c, out);
   return out;
 }
 

@@ -6,6 +6,8 @@
 // covariance; the other half is judged by them as the recording is, so the p-value is that of the ensemble
 // itself, whatever its shape (a permutation argument: under the null the recording is one more machine of the
 // second half). The statistic is the average Bayes factor of all explanations (value_search.hpp).
+// A mismatch is what neither machines of the specification nor rougher ones (rough_geometry.hpp) report, each judged
+// by themselves: of both kinds no more than the nominal share is told so (Berger 1982, intersection-union tests).
 //
 // The signature of an effect on the values is what the programs report on an error-free machine with the
 // effect at its typical size, one run for each linear parameter and choice. So an effect acts on alignments

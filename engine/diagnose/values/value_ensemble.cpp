@@ -306,15 +306,14 @@ Matrix as_recorded(Matrix m, const Matrix& recorded, std::uint64_t seed) {
 }
 
 ValueEnsemble value_ensemble(const ValueRecording& recording, const std::vector<ValueProgram>& programs,
-                             const Machine& machine, const DiagnoseOptions& options, int machines) {
+                             const Machine& machine, const VirtualMachines& machines, const DiagnoseOptions& options) {
   ValueEnsemble out;
-  out.machines = screened_machines(machine, options.seed, machines, options.threads);
-  EnsembleRuns runs(recording, machine, options, out.machines, out);
+  EnsembleRuns runs(recording, machine, options, machines, out);
   for (const OneRun& run : runs_of(recording, programs)) runs.add(run, programs[run.program]);
-  out.explanations = value_explanations(out.values, programs, machine, out.machines, options);
+  out.explanations = value_explanations(out.values, programs, machine, machines, options);
   const std::vector<Eigen::Index> reach = complete_rows(out.simulated);
   out.simulated = Matrix(out.simulated(reach, Eigen::all));
-  out.machines = chosen(out.machines, reach);
+  out.machines = chosen(machines, reach);
   return out;
 }
 

@@ -32,9 +32,8 @@ struct ValueEnsemble {
   Explanations explanations;  ///< of the catalogue: signatures of the values
 };
 
-/// Of `machines` accepted machines.
 ValueEnsemble value_ensemble(const ValueRecording&, const std::vector<ValueProgram>&, const Machine&,
-                             const DiagnoseOptions&, int machines);
+                             const VirtualMachines&, const DiagnoseOptions&);
 
 /// The same values of other machines: machines x values, NaN where one does not reach a value.
 Matrix simulated_values(const std::vector<RecordedValue>&, const std::vector<ValueProgram>&, const Machine&,
