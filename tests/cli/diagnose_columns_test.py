@@ -233,7 +233,8 @@ class Columns(harness.Case):
         self.assertEqual(said["verdict"], "no_mismatch")
         self.assertGreater(said["baseline"]["geometry_scale"], 2)
         self.assertIn("W0723", self.codes(said))
-        scattered = self.diagnosis(self.record("--seed", 0, "--with", "machine.step:t0_s=80,amplitude_um=6,direction=x", "--with", "noise.unequal:ratio=5,group=1"))
+        loose = ("--with", "noise.unequal:ratio=4,group=one orientation,head_a_deg=90,head_b_deg=90")
+        scattered = self.diagnosis(self.record("--seed", 4, "--with", "machine.step:t0_s=80,amplitude_um=6,direction=x", *loose))
         self.assertEqual([e["members"] for e in scattered["effects"]], [["noise.unequal"]])
         self.assertIn("W0723", self.codes(scattered))
 
@@ -293,9 +294,9 @@ class Columns(harness.Case):
 
     def test_scatter_of_groups_that_are_not_parted_cannot_be_judged(self):
         whole = self.record("--seed", 4)
-        upright = self.changed(whole, lambda row: row | {"head_A_deg": "0", "head_B_deg": "0"}, "upright.csv")
-        few = self.changed(whole, lambda row: row | ({"visit": "1", "head_A_deg": "0", "head_B_deg": "0"} if row["feature"] != "P5_1" else {"visit": "2"}), "few.csv")
-        columns = ["head_A_deg", "sensor", "speed_mm_s"]
+        upright = self.changed(whole, lambda row: row | {"head_A_deg": "0", "head_B_deg": "0", "time_s": ""}, "upright.csv")
+        few = self.changed(whole, lambda row: row | {"time_s": ""} | ({"visit": "1", "head_A_deg": "0", "head_B_deg": "0"} if row["feature"] != "P5_1" else {"visit": "2"}), "few.csv")
+        columns = ["head_A_deg", "sensor", "speed_mm_s", "time_s"]
 
         def unjudged(path, effect):
             return [c for c in self.diagnosis(path, "--design-only")["cannot_judge"] if c["effect"] == effect]
@@ -305,7 +306,7 @@ class Columns(harness.Case):
         entry, = unjudged(few, "head.reindexing")
         self.assertEqual((entry["missing"], entry["constant"], entry["too_few"]), (["visit"], [], ["visit"]))
         told = self.abbe("diagnose", few, "--machine", MACHINE, "--design-only").stdout
-        self.assertRegex(told, "noise.unequal +the same throughout: speed_mm_s; fewer than 20 touches in another orientation or with longer styli: head_A_deg, sensor")
+        self.assertRegex(told, "noise.unequal +missing: time_s; the same throughout: speed_mm_s; fewer than 20 touches in another orientation or with longer styli: head_A_deg, sensor")
         self.assertRegex(told, "head.reindexing +fewer than three indexings: visit")
 
     def test_styli_that_were_not_logged_are_missed_where_one_cannot_reach_all(self):

@@ -1,5 +1,6 @@
 """What a recording could tell, from its plan alone: it is held against recordings that have just that."""
 import json
+import re
 
 import harness
 
@@ -85,6 +86,17 @@ class Plan(harness.Case):
             recorded.append(size())
         for seed in (1, 2):
             self.assertAlmostEqual(size("--design-only", "--seed", seed) / (sum(recorded) / len(recorded)), 1, delta=0.15)
+
+    def test_what_shows_only_at_an_impossible_size_is_no_promise(self):
+        """25 touches on one ball would tell scallops of an error map by their name if they were of 25 um: none are."""
+        ball = harness.ROOT / "examples/iso10360/form_and_size_1x25.dmi"
+        self.abbe("record", ball, "--machine", MACHINE, "-o", "ball.csv")
+        said = self.diagnosis("ball.csv", "--design-only")
+        for d in said["smallest_detectable"]:
+            limits = re.search(rf"(?m)^  {d['parameter']} .*; \S+ to (\S+)$", self.abbe("explain", d["effect"]).stdout)
+            self.assertLessEqual(d["name"] or d["detect"], float(limits[1]), d["effect"])
+        scallops, = (d for d in said["smallest_detectable"] if d["effect"] == "machine.map_scallops")
+        self.assertIsNone(scallops["name"])
 
     def test_each_question_is_asked_once(self):
         asked = self.plan()["next_measurement"]

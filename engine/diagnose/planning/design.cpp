@@ -99,11 +99,12 @@ class Design {
     if (!is_named) told = median_form(forms, [](const Form& f) { return f.um_per_snr; });
     const double seen_from = detected_from(told, k, shift_of_form(told));
     if (std::isinf(seen_from)) return std::nullopt;
+    // No effect is larger than the catalogue takes it for possible: what shows from there on does not show.
+    const auto possible = [&](double snr) { return snr * told.per_snr <= parameter.high; };
+    if (!possible(seen_from)) return std::nullopt;
     d.detect = seen_from * told.per_snr, d.detect_um = seen_from * told.um_per_snr;
-    if (is_named) {
-      const double from = std::max(told.named, seen_from);
+    if (const double from = std::max(told.named, seen_from); is_named && possible(from))
       d.name = from * told.per_snr, d.name_um = from * told.um_per_snr;
-    }
     d.confounded_with = likeliest(belief, k);
     return d;
   }
