@@ -276,6 +276,8 @@ class DiagnoseRuns(harness.Case):
         self.assertLess(abs(told["from_s"] - 60), 15)
         self.assertLess(abs(told["to_s"] - 110), 15)
         self.assertEqual((said["location"][0]["factor"], said["baseline"]["outliers"]), ("time", []))
+        text = self.abbe("diagnose", "run1.csv", "--machine", MACHINE).stdout
+        self.assertIn("Find out what was different then", text)
 
     def test_a_pattern_finer_than_any_effect_repeats_and_is_no_noise(self):
         """Every touched point is off by its own amount, the same in both runs; the scale readings do not know of it."""

@@ -271,6 +271,23 @@ std::string baseline_in_words(const Diagnosis& d) {
   return out;
 }
 
+namespace {
+
+/// What to look at where touches of one group scatter more; "" where that is the stylus, the head or the speed.
+std::string_view where_it_scatters(const DiagnosedEffect& e) {
+  const auto group = std::find_if(e.parameters.begin(), e.parameters.end(),
+                                  [](const DiagnosedParameter& p) { return p.name == "group"; });
+  if (group->word == "one feature")
+    return "Look at the surface that scatters: a rough or dirty one does, and one that gives way. More touches on it make its results as certain as others.";
+  if (group->word == "one setup")
+    return "See how the part was held in that setup: what is loose gives way differently each time.";
+  if (group->word == "one run" || group->word == "a stretch of time")
+    return "Find out what was different then (traffic, a compressor, people at the machine, draught), and measure again what was touched then.";
+  return "";
+}
+
+}  // namespace
+
 std::vector<std::string> further_steps(const Diagnosis& d) {
   std::vector<std::string> out;
   if (!d.otherwise.empty()) out.push_back(d.otherwise);
@@ -287,6 +304,9 @@ std::vector<std::string> further_steps(const Diagnosis& d) {
   if (!d.baseline.outliers.empty() && std::any_of(d.effects.begin(), d.effects.end(), of_outliers))
     out.push_back(
         "Look at the surfaces where the touches were made that are left out (the last line), clean them and the tip, and touch them again: what does not come back is no property of the machine.");
+  for (const DiagnosedEffect& e : d.effects)
+    if (e.members.front() == kUnequalNoise.name)
+      if (const std::string_view step = where_it_scatters(e); !step.empty()) out.emplace_back(step);
   const bool pattern = d.values.empty() && d.unexplained, carried = pattern && !d.unexplained->model.empty();
   if (pattern && !carried)
     out.push_back(

@@ -90,12 +90,10 @@ Groups features(const Case& c) {
       c, [](const TouchScene& s) { return s.feature; },
       [&](int feature) {
         const std::string& label = c.touches.features[static_cast<std::size_t>(feature)];
-        return TouchGroup{"one feature",
-                          "touches on " + label,
-                          {"feature", label},
-                          Factor::feature,
-                          {},
-                          {limit("feature", "1", feature + 1)}};
+        DiagnosedParameter which = limit("feature", "code", feature + 1);
+        which.called = label;
+        return TouchGroup{"one feature",     "touches on " + label, {"feature", label}, Factor::feature, {},
+                          {std::move(which)}};
       });
 }
 
@@ -108,7 +106,7 @@ Groups setups(const Case& c) {
                           {"setup", std::to_string(setup)},
                           Factor::setup,
                           {},
-                          {limit("setup", "1", setup)}};
+                          {limit("setup", "code", setup)}};
       });
 }
 
@@ -121,7 +119,7 @@ Groups runs(const Case& c) {
                           {"run", std::to_string(run)},
                           Factor::run,
                           {},
-                          {limit("run", "1", run)}};
+                          {limit("run", "code", run)}};
       });
 }
 

@@ -28,6 +28,8 @@ std::optional<NoiseFinding> judge_unequal(Scatter& scatter) {
   ask_repeats(scatter, in, excess / (1 + excess), f);
   f.factor = group.factor, f.where = {group.where};
   f.sentence = fmt::format("T{} scatter {:.1f} times as much as the others.", group.touches.substr(1), noisy->ratio);
+  if (group.factor == Factor::feature)
+    f.sentence += " A machine file with it holds for programs that touch their features in this order.";
   scatter.quiet -= in;
   r.standardised.array() /= (1 + excess * in.array()).sqrt();  // what else scatters is judged beside it
   return f;
