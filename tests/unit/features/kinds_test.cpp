@@ -1,9 +1,11 @@
 // The registry of feature kinds and the nominal elements they make of arguments.
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <set>
 
 #include "engine/features/feature.hpp"
+#include "engine/features/nominal_normal.hpp"
 #include "engine/features/pattern.hpp"
 
 using namespace abbe;
@@ -93,6 +95,18 @@ TEST_CASE("the angle of a cone is the full one, the sizes of a torus are diamete
   REQUIRE(torus);
   CHECK(torus.value.size == 40);
   CHECK(torus.value.minor_size == 10);
+}
+
+// The radius of a cone of 60 degrees grows by tan 30 along its direction: out of a shaft the normal leads away from the
+// axis and back to the apex, square to the generator (sin 30, cos 30).
+TEST_CASE("the normal of a cone leads away from the axis and back to the apex") {
+  const double c = std::sqrt(0.75);
+  const Element up = nominal("CONE", {{"x", 1}, {"y", 2}, {"z", 3}, {"i", 0}, {"k", 1}, {"angle", kPi / 3}}).value;
+  const Element along = nominal("CONE", {{"i", -1}, {"angle", kPi / 3}}).value;
+  const FeatureKind& cone = feature_kind(Shape::cone);
+  check_vector(nominal_normal(cone, up, false, {1, 7, 13}).value, {0, c, -0.5});
+  check_vector(nominal_normal(cone, up, true, {1, 7, 13}).value, {0, -c, 0.5});
+  check_vector(nominal_normal(cone, along, false, {-10, 0, -5}).value, {0.5, 0, -c});
 }
 
 TEST_CASE("the vector of a sphere leads to its pole, where its default touches begin") {
