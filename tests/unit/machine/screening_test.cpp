@@ -169,6 +169,18 @@ TEST_CASE("an error-free machine has no factor on its errors") {
   CHECK(!suggest_e_max_factor(machine, 1, 100, 1));  // all pass, whatever the factor
 }
 
+// A squareness s errs by s l u_x u_y along a diagonal. Where it is all that errs, and by 0.6 of the MPE of the longest
+// length, every candidate has v = 1 / 0.6, whatever the factor on e_max.
+TEST_CASE("a factor on e_max leaves the known squarenesses alone") {
+  Machine machine = read_machine("coord3-mc16");
+  for (ComponentSpec& component : machine.components) component.e_max = 0;
+  const double diagonal = std::sqrt(1600.0 * 1600 + 1000 * 1000 + 800 * 800), longest = 0.66 * diagonal;
+  machine.squareness_cwy_rad = 0.6 * (5e-3 + 5e-6 * longest) / (longest * (1600 / diagonal) * (1000 / diagonal));
+  CHECK(virtual_acceptance_test(machine, draw_geometry(machine, 1, 0)).v == doctest::Approx(1 / 0.6));
+  CHECK_FALSE(contradicts_specification(machine, 1, 1));
+  CHECK_FALSE(suggest_e_max_factor(machine, 1, 100, 1));
+}
+
 TEST_CASE("a machine file whose errors and specification contradict each other is told") {
   Machine m = read_machine("coord3-mc16");
   CHECK_FALSE(contradicts_specification(m, 1, 1));
