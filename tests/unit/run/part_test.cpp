@@ -141,6 +141,33 @@ TEST_CASE("the reference is the true value, and machines add what is not known o
   for (const double v : lengths(w, 3, false)) CHECK(v == doctest::Approx(500.003).epsilon(1e-14));
 }
 
+TEST_CASE("a position about datums is the same in every coordinate system") {
+  // x starts at the face F0, which lies 10 um beside its nominal; the hole F1 and the datum F2 lie where they should.
+  PlanBuilder b;
+  b.append(plan::SelectSensor{b.sensor(0, 0, 150)});
+  b.plan.frames = {{"FACE"}};
+  const auto face = b.point({700, 500, -500}, {-1, 0, 0});
+  std::vector<plan::FeatureId> holes;
+  for (const double x : {800.0, 860.0}) {
+    const Element nominal{.point = {x, 500, -500}, .direction = {0, 0, 1}, .size = 20};
+    holes.push_back(b.feature(Shape::circle, nominal));
+    b.append(plan::BeginMeasure{holes.back()});
+    for (const Vec3 out : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{-1, 0, 0}, Vec3{0, -1, 0}})
+      b.append(plan::Touch{holes.back(), constant(nominal.point + 20 * out), constant(out), true});
+    b.append(plan::EndMeasure{holes.back()});
+  }
+  Arguments alone;
+  alone.add_number("zone", 1), alone.add_text("space", "2D");
+  Arguments about = alone;
+  about.add_feature("datum", holes[1].value);
+  b.append(plan::TranslateFrame{{0}, {{Axis::x, face, {}}}});
+  b.evaluate({holes[0]}, "POS", alone);
+  b.evaluate({holes[0]}, "POS", about);
+  const RunResult r = run(b.plan, workpiece(R"("surfaces": {"F0": {"offset_um": 10}})"), 1);
+  CHECK(r.samples[0].reference.value() == doctest::Approx(0.02).epsilon(1e-9));  // 10 um off on one side
+  CHECK(r.samples[1].reference.value() < 1e-9);
+}
+
 TEST_CASE("a diameter is the same for a bore and a shaft") {
   for (const bool inner : {false, true}) {
     CAPTURE(inner);
