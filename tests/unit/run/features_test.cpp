@@ -231,6 +231,33 @@ TEST_CASE("the point of a cone is its apex in coordinate systems and constructio
   CHECK(r.reference_outputs[1].features[1].point.z == Approx(kPart.z));
 }
 
+TEST_CASE("what is programmed lies in the coordinate system that each machine made for itself") {
+  // z starts where each machine touched the face; the nominal is programmed 20 above it, in whatever machine.
+  PlanBuilder b;
+  b.append(plan::SelectSensor{b.sensor(0, 0, 150)});
+  b.plan.frames = {{"MACHINE"}, {"FACE"}};
+  b.append(plan::SetMachineFrame{{0}});
+  const auto face = b.point(kPart, {0, 0, 1});
+  b.append(plan::TranslateFrame{{1}, {{Axis::z, face, {}}}});
+  const auto above = b.feature(Shape::point, {.point = {kPart.x, kPart.y, 20}, .direction = {0, 0, 1}});
+  b.plan.features.push_back(b.plan.features.back());
+  const plan::FeatureId nominal{above.value + 1};
+  b.append(plan::TakeNominal{nominal, above});
+  Arguments apart = limits(-1, 1);
+  apart.add_text("axis", "ZAXIS");
+  for (const int frame : {1, 0}) {
+    b.append(plan::RecallFrame{{frame}});
+    b.evaluate({face, nominal}, "DISTB", apart);
+  }
+  constexpr int n = 50;
+  const RunResult r = run(b.plan, n, only_probe());
+  for (const Samples& s : r.samples) {
+    CHECK(s.reference.value() == Approx(20));
+    REQUIRE(s.value.size() == n);
+    for (const double v : s.value) CHECK(std::fabs(v - 20) < 1e-9);
+  }
+}
+
 TEST_CASE("a coordinate system recalled is the one that was made") {
   PlanBuilder b;
   b.append(plan::SelectSensor{b.sensor(0, 0, 150)});
