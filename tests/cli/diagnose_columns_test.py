@@ -61,8 +61,8 @@ class Columns(harness.Case):
             self.assertEqual(other["effects"][0]["members"], said["effects"][0]["members"])
             moment, later = (d["effects"][0]["parameters"]["t0_s"]["value"] for d in (said, other))
             self.assertLess(abs(moment - begin - later), 30)
-            for told in (other, self.diagnosis(shifted, "--design-only")):
-                self.assertIn("N0721", self.codes(told))
+            self.assertIn("N0721", self.codes(other))
+        self.assertIn("N0721", self.codes(self.diagnosis(shifted, "--design-only")))
 
     def test_a_clock_of_the_day_goes_on_past_midnight(self):
         whole = self.record("--seed", 4, "--with", "machine.step:amplitude_um=25,t0_s=130,direction=x")
@@ -317,13 +317,16 @@ class Columns(harness.Case):
         said = self.diagnosis(several)
         self.assertNotIn("W0725", self.codes(said))
         self.assertGreater(said["effects"][0]["probability"], 0.9)
-        for path in (several, self.record("--seed", 1)):   # a machine that is not in order, and one that is
+        in_order = self.record("--seed", 1, name="in_order.csv")
+        for path in (several, in_order):
             nobody_knows = self.changed(path, lambda row: {c: row[c] for c in ("feature", "touch", "x", "y", "z", "tx", "ty", "tz", "nx", "ny", "nz")}, "bare.csv")
             nobody_knows.write_text("".join(line for line in nobody_knows.read_text().splitlines(True) if not line.startswith("#")))
             said = self.diagnosis(nobody_knows)
             self.assertEqual((said["verdict"], said["p_value"], said["effects"], self.codes(said)), ("cannot_judge", None, [], ["W0541", "W0725"]))
             self.assertTrue(all("sensor" in c["missing"] for c in said["cannot_judge"]))
             self.assertIn("sensor", said["otherwise"])
+            if path == in_order:
+                continue
             told = self.abbe("diagnose", nobody_knows, "--machine", MACHINE, "--fail-on-mismatch", "--model-out", "same.json").stdout
             self.assertIn("Whether this is a mismatch cannot be judged", told.splitlines()[0])
             # What holds for all effects a reader is told once.
