@@ -1,6 +1,7 @@
 #include "engine/diagnose/case.hpp"
 
 #include <fmt/format.h>
+#include <numeric>
 
 #include <cmath>
 
@@ -64,6 +65,14 @@ void judge_rounding(double step_um, Case& c) {
   if (rounding_um < kLeastRounding * model.noise_um.mean()) return;
   c.rounding_um = rounding_um;
   add_rounding(*c.machine, rounding_um, model);
+}
+
+std::vector<std::size_t> by_time(const RecordedTouches& t) {
+  std::vector<std::size_t> order(t.touches.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return t.touches[a].scene.time_s < t.touches[b].scene.time_s; });
+  return order;
 }
 
 }  // namespace abbe::diagnose

@@ -38,6 +38,9 @@ Case case_of(const Recording&, const Machine&, const DiagnoseOptions&, std::opti
 /// without any.
 void judge_rounding(double step_um, Case&);
 
+/// The touches in the order of their times.
+std::vector<std::size_t> by_time(const RecordedTouches&);
+
 /// A model of this case with the ensemble of error functions that its recording fits better: the
 /// specification's, or the rougher one.
 inline LinearModel likelier_ensemble(const Case& c, const LinearModel& m) {

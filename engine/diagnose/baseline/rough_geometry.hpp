@@ -24,8 +24,9 @@ struct RoughGeometry {
 /// The straight lines of scale and squareness are larger than waviness.
 RoughGeometry rough_geometry(const RecordedTouches&, const Machine&);
 
-/// Virtual machines with such errors, but for the straight lines that machines of the specification have, and the machine that has the harmonics for them. Each is as large as the
-/// specification lets it be: of the MPE its worst length takes a share that is drawn evenly between those of v_max and v_min.
+/// Virtual machines with such errors, but for the straight lines that machines of the specification have, and the machine
+/// that has the harmonics for them. Each is as large as the specification lets it be: of the MPE its worst length takes a
+/// share that is drawn evenly between those of v_max and v_min.
 struct RoughMachines {
   Machine machine;
   VirtualMachines machines;

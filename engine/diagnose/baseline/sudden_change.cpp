@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "engine/diagnose/model/noise_law.hpp"
 #include "engine/diagnose/model/prediction.hpp"
@@ -20,14 +19,6 @@ constexpr int kLeastTogether = 2;
 /// Least share of a touch's precision that a displacement must leave: otherwise the touch tells nothing but the displacement.
 constexpr double kLeftToIt = 0.3;
 constexpr double kBroad_um = 1e3;  ///< standard deviation of each coordinate of the displacement
-
-std::vector<std::size_t> by_time(const RecordedTouches& t) {
-  std::vector<std::size_t> order(t.touches.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return t.touches[a].scene.time_s < t.touches[b].scene.time_s; });
-  return order;
-}
 
 }  // namespace
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 
 #include "engine/effects/noise/noise.hpp"
 
@@ -69,73 +68,56 @@ Groups orientations(const Case& c) {
 }
 
 /// One for each number that touches have of it.
-template <class Of, class Make>
-Groups numbered(const Case& c, Of of, Make make) {
+template <class Make>
+Groups numbered(const Case& c, int TouchScene::*number, Make make) {
   std::map<int, Vector> touches;
   for (Eigen::Index k = 0; k < count(c); ++k) {
-    Vector& in = touches[of(scene_of(c, k))];
+    Vector& in = touches[scene_of(c, k).*number];
     if (in.size() == 0) in = Vector::Zero(count(c));
     in(k) = 1;
   }
   Groups out;
-  for (auto& [number, in] : touches) {
-    out.push_back(make(number));
+  for (auto& [value, in] : touches) {
+    out.push_back(make(value));
     out.back().in = std::move(in);
   }
   return out;
 }
 
 Groups features(const Case& c) {
-  return numbered(
-      c, [](const TouchScene& s) { return s.feature; },
-      [&](int feature) {
-        const std::string& label = c.touches.features[static_cast<std::size_t>(feature)];
-        DiagnosedParameter which = limit("feature", "code", feature + 1);
-        which.called = label;
-        return TouchGroup{"one feature",     "touches on " + label, {"feature", label}, Factor::feature, {},
-                          {std::move(which)}};
-      });
+  return numbered(c, &TouchScene::feature, [&](int feature) {
+    const std::string& label = c.touches.features[static_cast<std::size_t>(feature)];
+    DiagnosedParameter which = limit("feature", "code", feature + 1);
+    which.called = label;
+    return TouchGroup{"one feature",     "touches on " + label, {"feature", label}, Factor::feature, {},
+                      {std::move(which)}};
+  });
+}
+
+/// `column`: as recordings call it.
+TouchGroup of_number(const char* kind, const char* column, Factor factor, int number) {
+  return {kind,
+          fmt::format("touches of {} {}", column, number),
+          {column, std::to_string(number)},
+          factor,
+          {},
+          {limit(column, "code", number)}};
 }
 
 Groups setups(const Case& c) {
-  return numbered(
-      c, [](const TouchScene& s) { return s.setup; },
-      [](int setup) {
-        return TouchGroup{"one setup",
-                          fmt::format("touches in setup {}", setup),
-                          {"setup", std::to_string(setup)},
-                          Factor::setup,
-                          {},
-                          {limit("setup", "code", setup)}};
-      });
+  return numbered(c, &TouchScene::setup, [](int n) { return of_number("one setup", "setup", Factor::setup, n); });
 }
 
 Groups runs(const Case& c) {
-  return numbered(
-      c, [](const TouchScene& s) { return s.run; },
-      [](int run) {
-        return TouchGroup{"one run",
-                          fmt::format("touches of run {}", run),
-                          {"run", std::to_string(run)},
-                          Factor::run,
-                          {},
-                          {limit("run", "code", run)}};
-      });
-}
-
-std::vector<Eigen::Index> by_time(const Case& c) {
-  std::vector<Eigen::Index> order(static_cast<std::size_t>(count(c)));
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](Eigen::Index a, Eigen::Index b) { return scene_of(c, a).time_s < scene_of(c, b).time_s; });
-  return order;
+  return numbered(c, &TouchScene::run, [](int n) { return of_number("one run", "run", Factor::run, n); });
 }
 
 /// The touches of `order` from one up to, but not including, another.
-TouchGroup stretch(const Case& c, const std::vector<Eigen::Index>& order, std::size_t from, std::size_t to) {
+TouchGroup stretch(const Case& c, const std::vector<std::size_t>& order, std::size_t from, std::size_t to) {
   TouchGroup out{"a stretch of time", "", {}, Factor::time, Vector::Zero(count(c)), {}};
-  for (std::size_t k = from; k < to; ++k) out.in(order[k]) = 1;
-  const double from_s = scene_of(c, order[from]).time_s, to_s = scene_of(c, order[to - 1]).time_s;
+  for (std::size_t k = from; k < to; ++k) out.in(static_cast<Eigen::Index>(order[k])) = 1;
+  const double from_s = c.touches.touches[order[from]].scene.time_s,
+               to_s = c.touches.touches[order[to - 1]].scene.time_s;
   out.touches = fmt::format("touches from {:.0f} s to {:.0f} s", from_s, to_s);
   out.where = {"time", fmt::format("{:.0f} to {:.0f} s", from_s, to_s)};
   out.which = {limit("from_s", "s", from_s), limit("to_s", "s", to_s)};
@@ -146,7 +128,7 @@ TouchGroup stretch(const Case& c, const std::vector<Eigen::Index>& order, std::s
 Groups stretches(const Case& c) {
   Groups out;
   if ((c.touches.known & static_cast<unsigned>(Covariate::time)) == 0) return out;
-  const std::vector<Eigen::Index> order = by_time(c);
+  const std::vector<std::size_t> order = by_time(c.touches);
   for (std::size_t length = order.size() / 2; length >= kEnoughOfGroup; length /= 2)
     for (std::size_t from = 0; from + length <= order.size(); from += length / 2)
       out.push_back(stretch(c, order, from, from + length));
@@ -157,8 +139,8 @@ bool parts(const Vector& in) { return in.sum() >= kEnoughOfGroup && double(in.si
 
 /// Its ends moved to where it explains most.
 TouchGroup sharpened(const Case& c, const Residuals& r, const TouchGroup& found) {
-  const std::vector<Eigen::Index> order = by_time(c);
-  const auto in = [&](std::size_t k) { return found.in(order[k]) == 1; };
+  const std::vector<std::size_t> order = by_time(c.touches);
+  const auto in = [&](std::size_t k) { return found.in(static_cast<Eigen::Index>(order[k])) == 1; };
   std::size_t from = 0;
   while (!in(from)) ++from;
   std::size_t to = from + static_cast<std::size_t>(found.in.sum());
