@@ -277,6 +277,7 @@ namespace {
 std::string_view where_it_scatters(const DiagnosedEffect& e) {
   const auto group = std::find_if(e.parameters.begin(), e.parameters.end(),
                                   [](const DiagnosedParameter& p) { return p.name == "group"; });
+  if (group == e.parameters.end()) return "";
   if (group->word == "one feature")
     return "Look at the surface that scatters: a rough or dirty one does, and one that gives way. More touches on it make its results as certain as others.";
   if (group->word == "one setup")
