@@ -1,4 +1,4 @@
-// abbe explain [WORD|EFFECT|FAMILY|MESSAGE-CODE]: help from the tables that the program itself uses.
+// abbe explain [WORD|EFFECT|FAMILY|ACCEPTANCE-TEST|MESSAGE-CODE]: help from the tables that the program itself uses.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,6 +11,7 @@
 #include "engine/base/letter_case.hpp"
 #include "engine/effects/effect.hpp"
 #include "engine/figures/signature.hpp"
+#include "engine/machine/acceptance/acceptance.hpp"
 #include "engine/machine/machine.hpp"
 #include "engine/report/report_words.hpp"
 #include "lang/reference.hpp"
@@ -126,6 +127,17 @@ std::optional<std::string> explain_family(std::string_view name) {
   return fmt::format("{}: a family of effects\n{}", name, lines);
 }
 
+std::optional<std::string> explain_acceptance_test(const std::string& name) {
+  for (const AcceptanceTest* test : acceptance_tests())
+    if (upper(std::string(test->name)) == upper(name))
+      return fmt::format(
+          "{}: an acceptance test of machines\n  {}\n  what it does here: {}; `abbe machine screen FILE` shows it\n  source: {}\n",
+          test->name, test->help,
+          test->lines ? "simulated machines must pass it" : "says whether the stated probe would pass it",
+          test->source);
+  return std::nullopt;
+}
+
 /// The words of one kind of answer.
 struct Answers {
   std::string_view title, plural;
@@ -162,10 +174,12 @@ std::vector<std::string_view> words_of(const Answers& answers) {
 std::string overview() {
   std::string out = lang::list_of_words();
   for (const Answers& one : answers()) out += "\n" + lang::list_of_group(one.title, words_of(one));
+  out += "\nAcceptance tests\n";
+  for (const AcceptanceTest* test : acceptance_tests()) out += fmt::format("  {:<34} {}\n", test->name, test->source);
   out += "\nEffects\n";
   for (const Effect* effect : effects()) out += line_of(*effect);
   return out +
-      "\n`abbe explain WORD` explains a word, an effect, a family of effects (head), or the code of a message (E0110).\n";
+      "\n`abbe explain WORD` explains a word, an effect, a family of effects (head), an acceptance test, or the code of a message (E0110).\n";
 }
 
 [[noreturn]] void unknown(const std::string& word) {
@@ -173,6 +187,7 @@ std::string overview() {
   for (const Effect* effect : effects()) candidates.push_back(effect->name);
   for (const Answers& one : answers())
     for (const std::string_view name : words_of(one)) candidates.push_back(name);
+  for (const AcceptanceTest* test : acceptance_tests()) candidates.push_back(test->name);
   for (const CodeInfo& code : all_codes()) candidates.push_back(code.name);
   const std::string near = nearest_name(word, candidates);
   throw UserError(diagnostic(Code::E0609, fmt::format("there is nothing to explain under '{}'", word),
@@ -210,6 +225,7 @@ std::string text_of(const ExplainOptions& options) {
   for (const Answers& one : answers()) add(explain_word_of(one, word));
   add(explain_effect(word));
   add(explain_family(word));
+  add(explain_acceptance_test(word));
   if (out.empty()) out = lang::explain_argument_word(word).value_or("");
   if (out.empty()) unknown(word);
   return out;

@@ -62,6 +62,14 @@ class Usage(harness.Case):
         for no_word in ("F", "LABEL", "INNE", ",", ""):
             self.refused("E0609", "explain", no_word)
 
+    def test_every_acceptance_test_is_explained(self):
+        listed = self.abbe("explain").stdout.split("\nAcceptance tests\n")[1].split("\n\n")[0].splitlines()
+        self.assertEqual(len(listed), len(list((harness.ROOT / "engine/machine/acceptance").glob("*.cpp"))) - 1)   # all.cpp is the list
+        for line in listed:
+            self.assertIn("source: ISO 10360-", self.abbe("explain", line[2:36].strip()).stdout)
+        self.assertIn("simulated machines must pass it", self.abbe("explain", "e150").stdout)
+        self.assertIn("did you mean form and size?", self.refused("E0609", "explain", "form and sizes"))
+
     def test_every_word_of_a_report_is_explained(self):
         self.write("length.dmi", harness.LENGTH)
         report = self.run_json("length.dmi", "--machines", 50, "--budget", "--coverage", 0.99)
