@@ -308,9 +308,7 @@ void add_diagnose(CLI::App& app, Chosen& chosen) {
           "machine file, or name of a shipped machine (default: what the recording says, else the program, else "
           "coord3-mc16)")
       ->type_name("M");
-  command
-      ->add_option("--workpiece", o->workpiece, "workpiece file: calibrated sizes, temperatures, expansion coefficient")
-      ->type_name("W.json");
+  add_workpiece_of_program(command, o->workpiece);
   command
       ->add_option(
           "--known", o->known,

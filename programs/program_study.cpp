@@ -24,13 +24,6 @@ std::string machine_name(const CompiledProgram& program, const std::optional<std
   return is_there(file) ? file : asked;
 }
 
-std::optional<Workpiece> workpiece_of(const CompiledProgram& program, const std::optional<std::string>& chosen) {
-  if (chosen) return read_workpiece(*chosen);
-  const std::optional<std::string>& asked = program.compilation.directives.workpiece;
-  if (!asked) return std::nullopt;
-  return read_workpiece(beside(program.source.name(), *asked));
-}
-
 CompiledProgram compile_program(const std::string& path, const lang::CompileOptions& options) {
   Sink sink;
   SourceFile source = read_text(path, sink);
@@ -65,6 +58,14 @@ auto read_named(const SourceFile& program, Span directive, Read read) {
 
 }  // namespace
 
+std::optional<Workpiece> workpiece_of(const CompiledProgram& program, const std::optional<std::string>& chosen) {
+  if (chosen) return read_workpiece(*chosen);
+  const lang::Directives& directives = program.compilation.directives;
+  if (!directives.workpiece) return std::nullopt;
+  return read_named(program.source, directives.workpiece_span,
+                    [&] { return read_workpiece(beside(program.source.name(), *directives.workpiece)); });
+}
+
 std::vector<Diagnostic> placed(const UserError& error, const SourceFile& program, Span directive) {
   std::vector<Diagnostic> out;
   for (const Diagnostic& d : error.diagnostics())
@@ -77,10 +78,8 @@ StudyInputs read_inputs(const CompiledProgram& program, const StudySettings& set
   const lang::Directives& asked = program.compilation.directives;
   in.machine_name = machine_name(program, settings.machine);
   const auto machine = [&] { return read_machine(in.machine_name); };
-  const auto workpiece = [&] { return workpiece_of(program, settings.workpiece); };
   in.machine = asked.machine && !settings.machine ? read_named(program.source, asked.machine_span, machine) : machine();
-  in.workpiece = asked.workpiece && !settings.workpiece ? read_named(program.source, asked.workpiece_span, workpiece)
-                                                        : workpiece();
+  in.workpiece = workpiece_of(program, settings.workpiece);
   in.files = files_compiled(program);
   in.files.push_back(in.machine_name);
   for (const std::string& file : files_of(in.workpiece)) in.files.push_back(file);

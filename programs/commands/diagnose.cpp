@@ -61,8 +61,26 @@ struct Answer {
   std::string name;          ///< of that machine
 };
 
-Answer of_values(const DiagnoseCommandOptions& options, const Files& read, const DiagnoseOptions& how, Said& said) {
+/// The part that was measured: the one of the command line, else that which the programs name.
+void read_part(const DiagnoseCommandOptions& options, const std::vector<CompiledProgram>& programs, Files& read,
+               DiagnoseOptions& how) {
+  if (options.workpiece) read.workpiece = read_workpiece(*options.workpiece);
+  for (const CompiledProgram& program : programs) {
+    if (options.workpiece) break;
+    std::optional<Workpiece> part = workpiece_of(program, std::nullopt);
+    if (part && read.workpiece && part->source.name() != read.workpiece->source.name())
+      throw UserError(diagnostic(Code::E0562,
+                                 fmt::format("the programs name different workpiece files: '{}' and '{}'",
+                                             read.workpiece->source.name(), part->source.name()),
+                                 "give the file of the part that was measured with --workpiece"));
+    if (part) read.workpiece = std::move(part);
+  }
+  how.workpiece = read.workpiece ? &*read.workpiece : nullptr;
+}
+
+Answer of_values(const DiagnoseCommandOptions& options, Files& read, DiagnoseOptions how, Said& said) {
   const RecordedValues values(read.recordings.front(), options.program, said);
+  read_part(options, values.programs(), read, how);
   const std::string name = machine_of(options, said, [&] { return values.machine(); });
   protect_files(options, read, values.files(), name);
   const std::string text = machine_text(name);
@@ -96,13 +114,15 @@ void doubt_known(const DiagnoseCommandOptions& options, const Recording& recordi
                    "give --known what was learned of the same machine"));
 }
 
-Answer of_touches(const DiagnoseCommandOptions& options, const Files& read, const DiagnoseOptions& how, Said& said) {
+Answer of_touches(const DiagnoseCommandOptions& options, Files& read, DiagnoseOptions how, Said& said) {
   Recording recording =
       joined(read.recordings, options.design_only ? Positions::or_targets : Positions::recorded, said);
   const std::string file = fmt::format("{}", fmt::join(options.recordings, ", "));
-  const std::optional<CompiledProgram> program =
-      options.program ? std::optional(usable_program(*options.program)) : std::nullopt;
+  std::vector<CompiledProgram> programs;
+  if (options.program) programs.push_back(usable_program(*options.program));
+  const CompiledProgram* const program = programs.empty() ? nullptr : &programs.front();
   if (program) said.insert(said.end(), program->messages.begin(), program->messages.end());
+  read_part(options, programs, read, how);
   const std::string name = machine_of(options, said, [&] {
     const std::string recorded =
         recorded_machine(abbe::said(recording.metadata, "machine").value_or(""), options.recordings);
@@ -125,9 +145,7 @@ int diagnose_command(const DiagnoseCommandOptions& options) {
   Sink sink;
   Files read;
   for (const std::string& file : options.recordings) read.recordings.push_back(read_text(file, sink));
-  if (options.workpiece) read.workpiece = read_workpiece(*options.workpiece);
   DiagnoseOptions how;
-  how.workpiece = read.workpiece ? &*read.workpiece : nullptr;
   how.seed = options.seed.value_or(1);
   how.threads = thread_count(options.threads);
   how.design_only = options.design_only;

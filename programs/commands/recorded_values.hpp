@@ -29,6 +29,8 @@ class RecordedValues {
   /// The machine that the recording or its first program names; empty: none does. Throws UserError as
   /// recorded_machine does.
   std::string machine() const;
+  /// In the order in which rows name them first.
+  const std::vector<CompiledProgram>& programs() const { return programs_; }
   /// The programs and their modules.
   std::vector<std::string> files() const;
   Diagnosis diagnosis(const Machine&, const DiagnoseOptions&) const;

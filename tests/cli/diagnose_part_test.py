@@ -54,6 +54,8 @@ class CalibratedPart(harness.Case):
                                                  temperature={"part_C": 35, "scale_C": 20}))
         self.abbe("record", program, "--machine", MACHINE, "--workpiece", warm, "-o", "warm.csv")
         said = self.diagnosis("warm.csv", "--program", program, "--workpiece", warm)
+        named = self.write("named.dmi", program.read_text().replace("\n", "\n$$! workpiece warm.json\n", 1))
+        self.assertEqual(self.diagnosis("warm.csv", "--program", named), said)
         self.assertEqual(said["verdict"], "no_mismatch")
         self.assertEqual([m["code"] for m in said["messages"] if m["code"] in ("W0704", "W0710")], [])
 

@@ -141,7 +141,14 @@ class Values(harness.Case):
         self.assertNotIn("machine.scale", said["effects"][0]["members"])
         self.assertGreater(said["effects"][0]["probability"], 0.1)
         self.assertIn("temp_part_C in a workpiece file", said["otherwise"])
-        self.assertEqual(self.diagnosis("v.dmo", "--program", program, "--workpiece", warm)["verdict"], "no_mismatch")
+        known = self.diagnosis("v.dmo", "--program", program, "--workpiece", warm)
+        self.assertEqual(known["verdict"], "no_mismatch")
+        for name, part in (("named", "warm"), ("other", "cold")):
+            self.write(f"{name}.dmi", program.read_text().replace("\n", f"\n$$! workpiece {part}.json\n", 1))
+        self.assertEqual(self.diagnosis("v.dmo", "--program", "named.dmi")["p_value"], known["p_value"])
+        self.write("cold.json", warm.read_text())
+        rows = "characteristic,value,program\nDIA1,30.0,named.dmi\nDIA1,30.0,other.dmi\n"
+        self.assertRegex(self.refused("E0562", "diagnose", self.write("two.csv", rows)), r"warm.json' and '\S*cold.json'")
 
     def test_the_size_of_an_effect_is_not_pulled(self):
         said = self.diagnosis(self.recorded("--with", "machine.scale:scale_um_per_m=800,axis=all", lengths=BOTH), "--workpiece", self.at_20_degrees())
