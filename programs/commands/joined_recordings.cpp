@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <string_view>
 #include <tuple>
 
@@ -43,6 +44,30 @@ void continue_clock_of(const Recording& before, Recording& next, const std::stri
     told.add(
         file,
         fmt::format("its times overlap those of the recording ahead of it; they count as {:.0f} s later", *later_s));
+}
+
+/// Whoever names files by a pattern has the tenth day ahead of the second. Where no clock begins anew, the clocks tell their
+/// order; a clock that falls by more than half a day within one has passed midnight, and the order is that which was given.
+std::vector<std::size_t> in_order_of_clocks(const std::vector<Recording>& files) {
+  constexpr double kDay_s = 24 * 3600;
+  std::vector<std::size_t> given(files.size());
+  std::iota(given.begin(), given.end(), 0);
+  std::vector<TimeSpan> spans;
+  for (const Recording& file : files) {
+    const std::optional<TimeSpan> span = time_span(file.rows);
+    if (!span) return given;
+    spans.push_back(*span);
+  }
+  std::vector<std::size_t> order = given;
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return spans[a].first_s < spans[b].first_s; });
+  for (std::size_t k = 1; k < order.size(); ++k)
+    if (spans[order[k]].first_s <= spans[order[k - 1]].last_s) return given;
+  bool past_midnight = false;
+  for (std::size_t k = 1; k < spans.size(); ++k)
+    past_midnight = past_midnight || spans[k].first_s < spans[k - 1].last_s - kDay_s / 2;
+  const bool within_a_day = spans[order.back()].last_s - spans[order.front()].first_s <= kDay_s;
+  return past_midnight && within_a_day ? given : order;
 }
 
 /// A number that counts on from those of the files ahead of it.
@@ -173,13 +198,20 @@ Recording joined(const std::vector<SourceFile>& files, Positions positions, std:
     for (std::size_t k = 0; k + 1 < read.size(); ++k) refuse_copy(read[k], files[k].name(), read.back(), file.name());
   }
   doubt_qualifications(read, files);
-  Recording all = std::move(read.front());
+  const std::vector<std::size_t> order = in_order_of_clocks(read);
+  if (!std::is_sorted(order.begin(), order.end()))
+    messages.push_back(diagnostic(
+        Code::N0708,
+        "by their clocks the files are given in another order than they were measured in; they count in that of their clocks",
+        "if each clock began anew, as that of a day does, write true times into time_s"));
+  const std::string& first = files[order.front()].name();
+  Recording all = std::move(read[order.front()]);
   for (const SourceFile& file : files) all.files.push_back(file.name());
   ToldOnce later, further_runs;
   for (std::size_t k = 1; k < files.size(); ++k) {
-    const std::string& name = files[k].name();
-    Recording& one = read[k];
-    doubt_machine(all, files[0].name(), one, name, messages);
+    const std::string& name = files[order[k]].name();
+    Recording& one = read[order[k]];
+    doubt_machine(all, first, one, name, messages);
     continue_clock_of(all, one, name, later);
     continue_runs(all, one, name, further_runs);
     all.rows.insert(all.rows.end(), one.rows.begin(), one.rows.end());

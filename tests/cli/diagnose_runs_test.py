@@ -61,6 +61,31 @@ class DiagnoseRuns(harness.Case):
         self.assertEqual(said.count("N0708"), 2, said)
         self.assertEqual(said.count("so it is with 2 files more"), 2, said)
 
+    def days(self, touches=3):
+        """So many touches on each of three days of one clock, numbered by nobody; with three they are too few to be judged, and what is said of files is said first."""
+        program, files = harness.ROOT / "examples/programs/sphere_25_points.dmi", []
+        for day in (1, 2, 3):
+            self.abbe("record", program, "--machine", MACHINE, "--run", day, "-o", f"run{day}.csv")
+            files.append(self.changed(self.folder / f"run{day}.csv", lambda row: row | {"run": "1", "time_s": str(float(row["time_s"]) + 86400 * day)}
+                                      if int(row["touch"]) <= touches else None, f"day{day}.csv"))
+        return files
+
+    def said_of(self, *files):
+        return self.refused("E0705", "diagnose", *files, "--machine", MACHINE)
+
+    def test_files_in_another_order_count_in_that_of_their_clocks(self):
+        """Runs were numbered in the order given, and a change that came on the last day came and went and came."""
+        first, second, third = self.days()
+        told = "in another order than they were measured in"
+        said = self.said_of(third, first, second)
+        self.assertIn(told, said)
+        self.assertRegex(said, "day2.csv: it repeats touches .*: run 1 counts as 2; so it is with 1 file more")
+        clock = lambda begin: lambda row: row | {"time_s": str(float(row["time_s"]) % 86400 + begin)}
+        evening, morning = (self.changed(f, clock(begin), f"{begin}.csv") for f, begin in ((first, 85000), (second, 600)))
+        anew = [self.changed(f, clock(0), f"anew_{f.name}") for f in (third, first, second)]
+        for files in ((first, second, third), (evening, morning), anew):
+            self.assertNotIn(told, self.said_of(*files))
+
     def test_numbers_that_are_too_large_to_count_on_are_told(self):
         first = self.folder / self.record(1)
 
