@@ -121,13 +121,34 @@ void doubt_qualifications(std::vector<Recording>& files, const std::vector<Sourc
   }
 }
 
+bool is_copy(const RecordingRow& a, const RecordingRow& b) {
+  return a.feature == b.feature && a.touch == b.touch && a.setup == b.setup && a.run == b.run &&
+      a.position_mm == b.position_mm && a.time_s == b.time_s;
+}
+
 bool same_rows(const Recording& before, const Recording& next) {
-  const auto same = [](const RecordingRow& a, const RecordingRow& b) {
-    return a.feature == b.feature && a.touch == b.touch && a.setup == b.setup && a.run == b.run &&
-        a.position_mm == b.position_mm && a.time_s == b.time_s;
-  };
-  return std::search(before.rows.begin(), before.rows.end(), next.rows.begin(), next.rows.end(), same) !=
+  return std::search(before.rows.begin(), before.rows.end(), next.rows.begin(), next.rows.end(), is_copy) !=
       before.rows.end();
+}
+
+/// What was exported with one file and again with the next was measured once. Before clocks are continued: at another time
+/// it would be a repeat.
+void leave_out_copies(const std::vector<Recording>& before, Recording& next, const std::string& file,
+                      std::vector<Diagnostic>& messages) {
+  const auto named = [](const RecordingRow& row) { return std::tie(row.feature, row.touch, row.setup, row.run); };
+  std::multimap<std::tuple<std::string, int, int, int>, const RecordingRow*> touched;
+  for (const Recording& one : before)
+    for (const RecordingRow& row : one.rows) touched.emplace(named(row), &row);
+  const std::size_t copies = std::erase_if(next.rows, [&](const RecordingRow& row) {
+    const auto [first, last] = touched.equal_range(named(row));
+    const bool planned = row.target_mm == row.position_mm;
+    return !planned && std::any_of(first, last, [&](const auto& seen) { return is_copy(*seen.second, row); });
+  });
+  if (copies > 0)
+    messages.push_back(
+        diagnostic(Code::W0702,
+                   fmt::format("{}: {} of its rows stand in the files ahead of it too; they count once", file, copies),
+                   "give each touch once"));
 }
 
 /// Whether nearly all touches of the shorter recording stand in the longer one, under whatever setup and run.
@@ -188,14 +209,16 @@ Recording joined(const std::vector<SourceFile>& files, Positions positions, std:
   std::vector<Recording> read;
   std::map<std::string, std::string> as_met_first;  // labels are the same whatever their case
   for (const SourceFile& file : files) {
-    read.push_back(read_recording(file, positions));
-    messages.insert(messages.end(), read.back().messages.begin(), read.back().messages.end());
-    for (RecordingRow& row : read.back().rows) {
-      row.file = static_cast<int>(read.size()) - 1;
+    Recording next = read_recording(file, positions);
+    messages.insert(messages.end(), next.messages.begin(), next.messages.end());
+    for (RecordingRow& row : next.rows) {
+      row.file = static_cast<int>(read.size());
       row.feature = as_met_first.emplace(upper(row.feature), row.feature).first->second;
     }
-    refuse_unlike(read.front(), files.front().name(), read.back(), file.name());
-    for (std::size_t k = 0; k + 1 < read.size(); ++k) refuse_copy(read[k], files[k].name(), read.back(), file.name());
+    if (!read.empty()) refuse_unlike(read.front(), files.front().name(), next, file.name());
+    for (std::size_t k = 0; k < read.size(); ++k) refuse_copy(read[k], files[k].name(), next, file.name());
+    leave_out_copies(read, next, file.name(), messages);
+    read.push_back(std::move(next));
   }
   doubt_qualifications(read, files);
   const std::vector<std::size_t> order = in_order_of_clocks(read);

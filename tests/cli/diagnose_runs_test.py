@@ -86,6 +86,16 @@ class DiagnoseRuns(harness.Case):
         for files in ((first, second, third), (evening, morning), anew):
             self.assertNotIn(told, self.said_of(*files))
 
+    def test_what_two_files_have_in_common_counts_once(self):
+        """Two exports that overlap, the second day in both: its clock was taken for one that began anew, and all of it for repeats."""
+        first, second, third = (self.changed(f, lambda row, day=day: row | {"run": str(day)}, f"numbered{day}.csv") for day, f in enumerate(self.days(), 1))
+        body = lambda path: "".join(line + "\n" for line in path.read_text().splitlines() if not line.startswith(("#", "feature")))
+        early, late = self.write("early.csv", first.read_text() + body(second)), self.write("late.csv", second.read_text() + body(third))
+        said = self.said_of(early, late)
+        self.assertIn("late.csv: 3 of its rows stand in the files ahead of it too", said)
+        self.assertNotIn("N0708", said)
+        self.assertIn("too few touches to judge a machine by: 9", said)
+
     def test_numbers_that_are_too_large_to_count_on_are_told(self):
         first = self.folder / self.record(1)
 
