@@ -96,6 +96,15 @@ class DiagnoseRuns(harness.Case):
         self.assertNotIn("N0708", said)
         self.assertIn("too few touches to judge a machine by: 9", said)
 
+    def test_one_file_in_another_unit_is_told_by_its_name(self):
+        """It was taken for a tip that is 28 mm too small, or for touches beyond the travel."""
+        first, second, third = self.days(12)
+        for columns, told in (("x y z", "inches.csv: the recorded positions are in inches"),
+                              ("x y z tx ty tz", "inches.csv: positions and targets are in inches, those of the same touches in")):
+            inches = self.changed(second, lambda row: row | {c: f"{float(row[c]) / 25.4:.7f}" for c in columns.split()}, "inches.csv")
+            for files in ((first, inches, third), (inches, first, third)):
+                self.assertIn(told, self.refused("E0701", "diagnose", *files, "--machine", MACHINE).replace(str(self.folder) + "/", ""))
+
     def test_numbers_that_are_too_large_to_count_on_are_told(self):
         first = self.folder / self.record(1)
 

@@ -184,6 +184,33 @@ void check_axes(const Recording& r, const std::string& file, double gross) {
            "correct the signs in the recording");
 }
 
+/// The same touches, in two files: positions and targets of one of them may both be in another unit.
+void check_units_of_files(const Recording& r) {
+  constexpr std::size_t kFewest = 6;
+  std::map<std::pair<std::string, int>, const RecordingRow*> first;  // by feature and touch
+  std::map<std::pair<int, int>, std::pair<Recording, Recording>> pairs;
+  for (const RecordingRow& row : r.rows) {
+    const RecordingRow& before = *first.try_emplace({row.feature, row.touch}, &row).first->second;
+    if (before.file == row.file) continue;
+    auto& [earlier, later] = pairs[{before.file, row.file}];
+    earlier.rows.push_back(before), later.rows.push_back(row);
+  }
+  const auto target = [](const RecordingRow& row) { return *row.target_mm; };
+  const auto refuse_unit = [&](int file, int other, double written, double meant) {
+    if (const auto unit = foreign_unit(written, meant))
+      refuse(r.files[static_cast<std::size_t>(file)],
+             fmt::format("positions and targets are in {}, those of the same touches in '{}' in millimetres",
+                         unit->name, r.files[static_cast<std::size_t>(other)]),
+             fmt::format("multiply x, y, z, tx, ty, tz by {:g}", unit->mm));
+  };
+  for (const auto& [files, rows] : pairs) {
+    if (rows.first.rows.size() < kFewest) continue;
+    const double earlier = size_of(rows.first, target), later = size_of(rows.second, target);
+    refuse_unit(files.second, files.first, later, earlier);
+    refuse_unit(files.first, files.second, earlier, later);
+  }
+}
+
 /// Angles of the head in radians: none above a full turn, and each a usual one once it is taken for degrees.
 void check_head(const Recording& r, const std::string& file) {
   constexpr double kStep_deg = 2.5, kReads_deg = 0.1;
@@ -258,15 +285,32 @@ Recording without_copies(const Recording& recorded, const std::string& file, std
   return out;
 }
 
-void check_data(const Recording& r, const Machine& machine, const std::string& file) {
-  require_targets(r, file);
+namespace {
+
+void check_units_and_axes(const Recording& r, const Machine& machine, const std::string& file) {
   check_one_value(r, file);
   check_units(r, machine, file);
   check_unit_of_each(r, file);
   check_head(r, file);
-  check_normals_of_balls(r, file);
   const double gross = left_by(r, [](const RecordingRow& row) { return row.position_mm; });
   if (gross > kGross_mm) check_axes(r, file, gross);
+}
+
+}  // namespace
+
+void check_data(const Recording& r, const Machine& machine, const std::string& file) {
+  constexpr std::size_t kFewest = 12;  // touches of a file that is judged by itself
+  require_targets(r, file);
+  std::map<int, Recording> of_file;
+  for (const RecordingRow& row : r.rows) of_file[row.file].rows.push_back(row);
+  for (auto& [k, one] : of_file) {
+    if (of_file.size() < 2 || one.rows.size() < kFewest) continue;
+    one.in_part_frame = r.in_part_frame, one.point = r.point;
+    check_units_and_axes(one, machine, file_of(r, one.rows.front(), file));
+  }
+  check_units_of_files(r);
+  check_units_and_axes(r, machine, file);
+  check_normals_of_balls(r, file);
   check_readings(r, file);  // against positions that are as they should be
 }
 
