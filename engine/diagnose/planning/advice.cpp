@@ -251,12 +251,23 @@ std::string to_part_runs(const Case& c, const SearchResult& result) {
   return "A part that was moved between runs of one setup, by micrometres, looks like this too: if it may have been, give such runs or files different setups.";
 }
 
+/// What is new in a file is looked for from run to run: files of one run hide it.
+std::string to_number_runs(const Case& c, const SearchResult& result, const Diagnosis& told) {
+  std::set<int> files, runs;
+  for (const int row : c.rows) files.insert(c.touches.touches[row].file), runs.insert(c.touches.touches[row].scene.run);
+  const auto sure = [](const DiagnosedEffect& e) { return e.probability >= kTold; };
+  const bool certain = !result.other && std::all_of(told.effects.begin(), told.effects.end(), sure);
+  if (files.size() < 2 || runs.size() > 1 || certain) return "";
+  return "All files have the same run, and what is new in a file, or gone, is looked for from run to run: give each file a run of its own in the column run, which costs no measurement.";
+}
+
 }  // namespace
 
 std::string otherwise(const Case& c, const SearchResult& result, const Diagnosis& told) {
-  std::vector<std::string> sentences = {to_know_qualifications(c, result), to_part_runs(c, result),
-                                        to_know_sizes(c, result),          to_know_the_material(c, result),
-                                        besides_sizes(c, result, told),    to_record_digits(c, told)};
+  std::vector<std::string> sentences = {to_know_qualifications(c, result), to_number_runs(c, result, told),
+                                        to_part_runs(c, result),           to_know_sizes(c, result),
+                                        to_know_the_material(c, result),   besides_sizes(c, result, told),
+                                        to_record_digits(c, told)};
   std::erase(sentences, "");
   return fmt::format("{}", fmt::join(sentences, " "));
 }

@@ -56,3 +56,14 @@ TEST_CASE("what was logged and is the same throughout comes last") {
   p.miss("machine.dynamics", Covariate::acceleration, false);
   CHECK(p.says().ends_with("first of all, log accel_mm_s2, and let it and speed_mm_s vary."));
 }
+
+TEST_CASE("files of one run hide what is new in one of them") {
+  LeavesMore p;
+  const std::string told = "All files have the same run";
+  CHECK(p.says(kDoubted).find(told) == std::string::npos);
+  for (RecordedTouch& touch : p.c.touches.touches) touch.file = touch.row / 60;
+  CHECK(p.says(kDoubted).find(told) != std::string::npos);
+  CHECK(p.says().find(told) == std::string::npos);
+  for (RecordedTouch& touch : p.c.touches.touches) touch.scene.run = 1 + touch.file;
+  CHECK(p.says(kDoubted).find(told) == std::string::npos);
+}
