@@ -208,6 +208,14 @@ void JsonObject::fault(std::string_view key, Code code, std::string message, std
   reader_->report(span_of(key), code, std::move(message), std::move(help));
 }
 
+void JsonObject::check_schema(std::string_view schema, std::string_view kind, std::string help) {
+  const std::string found = text("schema");
+  if (found.empty() || found == schema) return;
+  throw UserError(diagnostic_at(reader_->source(), span_of("schema"), Code::E0407,
+                                fmt::format("the schema is \"{}\", but {} has \"{}\"", found, kind, schema),
+                                std::move(help)));
+}
+
 void JsonObject::one_of(std::string_view key, const std::string& value, const std::vector<std::string_view>& words) {
   if (std::find(words.begin(), words.end(), value) != words.end()) return;
   const std::string near = nearest_word(value, words);

@@ -107,6 +107,9 @@ class JsonObject {
 
   /// Reports an error at the value of `key`, or at the object when it has no such key.
   void fault(std::string_view key, Code code, std::string message, std::string help = "");
+  /// Holds a text under `schema` against the one that is read, and throws UserError where it is another: of such a file
+  /// no other key means anything. `kind`: what has this schema, as "a machine file".
+  void check_schema(std::string_view schema, std::string_view kind, std::string help);
   /// Reports an error when `value`, which stands under `key`, is none of `words`, and names the
   /// nearest.
   void one_of(std::string_view key, const std::string& value, const std::vector<std::string_view>& words);

@@ -288,10 +288,8 @@ void check_coefficients(JsonObject& state, std::string_view key, std::size_t giv
 std::optional<KnownState> read_known_state(JsonObject state, int harmonics) {
   constexpr NumberRange kCoefficient{-1e6, 1e6, true, true, "between -1e6 and 1e6"};
   if (!state.present()) return std::nullopt;
-  if (const std::string schema = state.text("schema"); !schema.empty() && schema != KnownState::kSchema)
-    state.fault("schema", Code::E0407,
-                fmt::format("the schema is \"{}\", but a known state has \"{}\"", schema, KnownState::kSchema),
-                "make it anew with `abbe diagnose CALIBRATION.csv --machine M --model-out KNOWN.json`");
+  state.check_schema(KnownState::kSchema, "a known state",
+                     "make it anew with `abbe diagnose CALIBRATION.csv --machine M --model-out KNOWN.json`");
   state.number_or("geometry_scale", 1, kNotNegative);  // for people; mean and factor hold it already
   KnownState known{state.number_list("mean", kCoefficient), state.number_lists("factor", kCoefficient)};
   for (const std::string_view key : {"mean", "factor"})
@@ -308,10 +306,10 @@ std::optional<KnownState> read_known_state(JsonObject state, int harmonics) {
 Machine parse_machine(const std::string& file, const std::string& text) {
   JsonReader reader(SourceFile(file, text));
   JsonObject root = reader.root();
-  if (const std::string schema = root.text_or("schema", "abbe.machine/1"); schema != "abbe.machine/1")
-    root.fault("schema", Code::E0407,
-               fmt::format("the schema is \"{}\", but a machine file has \"abbe.machine/1\"", schema),
-               "is this the right file? `abbe machine init NAME` prints a complete machine file");
+  root.offer("schema");
+  if (root.has("schema"))
+    root.check_schema("abbe.machine/1", "a machine file",
+                      "is this the right file? `abbe machine init NAME` prints a complete machine file");
   Machine machine;
   machine.name = root.text("name");
   read_axes(root.object("axes"), machine);

@@ -149,15 +149,6 @@ Surface read_surface(JsonObject object, std::string label, Span label_span) {
   return s;
 }
 
-void check_schema(JsonObject& root) {
-  constexpr std::string_view kSchema = "abbe.workpiece/1";
-  const std::string schema = root.text("schema");
-  if (!schema.empty() && schema != kSchema)
-    root.fault("schema", Code::E0407,
-               fmt::format("the schema is \"{}\", but a workpiece file has \"{}\"", schema, kSchema),
-               "is this the right file? docs/workpiece.md describes workpiece files");
-}
-
 void read_surfaces(JsonObject surfaces, Workpiece& w) {
   for (const std::string& label : surfaces.own_names()) {
     for (const Surface& other : w.surfaces)
@@ -214,7 +205,8 @@ bool Workpiece::scale_temperature_acts(bool compensates) const {
 Workpiece parse_workpiece(const SourceFile& file) {
   JsonReader reader(file);
   JsonObject root = reader.root();
-  check_schema(root);
+  root.check_schema("abbe.workpiece/1", "a workpiece file",
+                    "is this the right file? docs/workpiece.md describes workpiece files");
   Workpiece w;
   w.source = file;
   w.name = root.text("name");

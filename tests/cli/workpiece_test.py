@@ -114,8 +114,8 @@ def check_refusals(folder):
     bore.write_text(head + '"surfaces": {"BORE": {"diameter_mm": 1.9685}}}')
     done = abbe("run", ROOT / "examples/programs/ring_gauge.dmi", "--workpiece", bore)
     assert done.returncode == 2 and "E0424" in done.stderr and "it is given in inches" in done.stderr, done
-    message = refusal('{"schema": "abbe.machine/1", "name": "w"}')
-    assert "E0407" in message, message
+    message = refusal('{"schema": "abbe.machine/1", "name": "w", "axes": {}}')
+    assert "E0407" in message and "E0402" not in message, message
     done = abbe("run", EXAMPLE / "gauge_block.dmi", "--workpiece", folder / "none.json")
     assert done.returncode == 2 and "E0601" in done.stderr and "none.json" in done.stderr, done
 
