@@ -70,13 +70,13 @@ void Ensemble::prepare(const std::vector<Matrix>& uneven) {
   std::vector<const Matrix*> list;
   for (const Matrix& function : uneven) list.push_back(&function);
   functions_ = uneven.size();
-  prepare(list, nullptr);
+  prepare(list, {});
 }
 
-void Ensemble::add(const std::vector<Variant>& variants) {
+void Ensemble::add(std::span<const Variant> variants) {
   std::vector<const Matrix*> list;
   for (const Variant& b : variants) list.push_back(&b.signature);
-  prepare(list, &variants);
+  prepare(list, variants);
 }
 
 void Ensemble::keep(std::size_t count) {
@@ -99,7 +99,7 @@ void Ensemble::project(std::span<const Matrix* const> signatures) {
   }
 }
 
-void Ensemble::prepare(const std::vector<const Matrix*>& signatures, const std::vector<Variant>* variants) {
+void Ensemble::prepare(const std::vector<const Matrix*>& signatures, std::span<const Variant> variants) {
   Eigen::Index first = coordinates_.cols();
   if (projected_->cols() == first) project(signatures);  // or an ensemble that shares them has done so
   coordinates_.conservativeResize(basis_.rank(), projected_->cols());
@@ -108,7 +108,7 @@ void Ensemble::prepare(const std::vector<const Matrix*>& signatures, const std::
     coordinates_.middleCols(begin, count) = basis_.coordinates(projected_->middleCols(begin, count));
   }
   for (std::size_t k = 0; k < signatures.size(); ++k) {
-    variants_.push_back(prepared(first, signatures[k]->cols(), variants ? &(*variants)[k] : nullptr));
+    variants_.push_back(prepared(first, signatures[k]->cols(), variants.empty() ? nullptr : &variants[k]));
     first += signatures[k]->cols();
   }
 }

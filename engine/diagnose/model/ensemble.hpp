@@ -46,7 +46,7 @@ class Ensemble {
   /// Makes it ready to judge error functions that are larger than the others. Before any variant.
   void prepare(const std::vector<Matrix>& uneven);
   /// Makes it ready to judge variants, after those before.
-  void add(const std::vector<Variant>&);
+  void add(std::span<const Variant>);
   /// Forgets the variants after the first `count`.
   void keep(std::size_t count);
 
@@ -92,7 +92,7 @@ class Ensemble {
 
  private:
   /// `variants`: whose signatures they are; none: error functions of the machine.
-  void prepare(const std::vector<const Matrix*>& signatures, const std::vector<Variant>* variants);
+  void prepare(const std::vector<const Matrix*>& signatures, std::span<const Variant> variants);
   void project(std::span<const Matrix* const> signatures);
   PreparedVariant prepared(Eigen::Index first, Eigen::Index count, const Variant*) const;
   const PreparedVariant& of(int variant) const { return variants_[functions_ + static_cast<std::size_t>(variant)]; }

@@ -41,17 +41,12 @@ bool is_near(double p, double level) {
 }  // namespace
 
 EvidenceSearch::EvidenceSearch(const LinearModel& model, const Hyperparameters& h, const Explanations& explanations)
-    : model_(model), hyper_(h), explanations_(explanations.list) {
-  const bool plan = model.y.squaredNorm() == 0;
+    : model_(model), hyper_(h), functions_(model.uneven.size()) {
   const double correlated = h.correlation > 0 ? kPriorCorrelated : 1;
   rough_ = add_machines(model, h, std::log(correlated));
   if (correlated < 1) add_machines(model, estimate_uncorrelated(model), std::log(1 - correlated));
-  functions_ = model.uneven.size();
   for (Ensemble& e : ensembles_) e.prepare(model.uneven);
-  for (Ensemble& e : ensembles_) e.add(explanations.variants);
-  for (const Variant& b : explanations.variants) log_weight_.push_back(std::log(b.weight));
-  // A plan has no values yet: what it can tell is judged at the level that was stated.
-  if (!plan) judge_recording();
+  extend(explanations, 0);
 }
 
 double EvidenceSearch::add_machines(const LinearModel& model, const Hyperparameters& h, double log_prior) {
@@ -65,13 +60,12 @@ double EvidenceSearch::add_machines(const LinearModel& model, const Hyperparamet
 }
 
 void EvidenceSearch::extend(const Explanations& explanations, std::size_t same) {
-  const std::vector<Variant> more(explanations.variants.begin() + static_cast<std::ptrdiff_t>(same),
-                                  explanations.variants.end());
   for (Ensemble& e : ensembles_) e.keep(same);
-  for (Ensemble& e : ensembles_) e.add(more);
+  for (Ensemble& e : ensembles_) e.add(std::span(explanations.variants).subspan(same));
   explanations_ = explanations.list;
   log_weight_.clear();
   for (const Variant& b : explanations.variants) log_weight_.push_back(std::log(b.weight));
+  // A plan has no values yet: what it can tell is judged at the level that was stated.
   if (model_.y.squaredNorm() > 0) judge_recording();
 }
 
