@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "engine/base/ids.hpp"
-#include "engine/base/on_threads.hpp"
 #include "engine/diagnose/model/log_sums.hpp"
 #include "engine/diagnose/model/restricted_likelihood.hpp"
 
@@ -185,26 +184,21 @@ void EvidenceSearch::judge_recording() {
 }
 
 std::vector<Evidence> EvidenceSearch::bootstrap(double observed, const NoiseLaw& law, const Replicates& replicates,
-                                                std::uint64_t seed, int threads) const {
-  constexpr int kBatch = 20, kEnough = 10, kEnoughNear = 20, kMoreNear = 6;
+                                                std::uint64_t seed) const {
+  constexpr int kEnough = 10, kEnoughNear = 20, kMoreNear = 6;
   std::vector<Evidence> out;
   std::vector<double> statistics;
   int extreme = 0;
   const auto simulate = [&](int most, int enough) {
     while (static_cast<int>(out.size()) < most && extreme < enough) {
-      const int first = static_cast<int>(out.size()), count = std::min(kBatch, most - first);
-      out.resize(first + count);
-      on_threads((count + kTogether - 1) / kTogether, threads, [&](int group) {
-        const int begin = first + group * kTogether, end = std::min(begin + kTogether, first + count);
-        Matrix recordings(model_.y.size(), end - begin);
-        for (int r = begin; r < end; ++r)
-          recordings.col(r - begin) = ensembles_[alone_.ensemble].simulated(alone_.level, law, seed, r);
-        std::vector<Evidence> judged = judge(seen(recordings));
-        std::move(judged.begin(), judged.end(), out.begin() + begin);
-      });
-      for (int r = first; r < first + count; ++r) {
-        statistics.push_back(out[r].statistic);
-        extreme += out[r].statistic >= observed ? 1 : 0;
+      const int first = static_cast<int>(out.size()), count = std::min(kTogether, most - first);
+      Matrix recordings(rows(), count);
+      for (int k = 0; k < count; ++k)
+        recordings.col(k) = ensembles_[alone_.ensemble].simulated(alone_.level, law, seed, first + k);
+      for (Evidence& e : judge(seen(recordings))) {
+        statistics.push_back(e.statistic);
+        extreme += e.statistic >= observed ? 1 : 0;
+        out.push_back(std::move(e));
       }
     }
   };
