@@ -39,6 +39,25 @@ bool is_near(double p, double level) {
 
 }  // namespace
 
+std::vector<double> log_weights(const std::vector<Variant>& variants) {
+  std::vector<double> out;
+  for (const Variant& b : variants) out.push_back(std::log(b.weight));
+  return out;
+}
+
+void average_variants(const std::vector<Explanation>& explanations, const std::vector<double>& log_weight,
+                      Evidence& out) {
+  std::vector<double> all;
+  for (const Explanation& x : explanations) {
+    std::vector<double> variants;
+    for (const int b : x.variants) variants.push_back(out.variant_log_bayes[b] + log_weight[b]);
+    out.log_bayes.push_back(log_sum_exp(variants));
+    all.push_back(std::log(x.prior) + out.log_bayes.back());
+  }
+  out.statistic = log_sum_exp(all);
+  ABBE_CHECK(std::isfinite(out.statistic));  // or a mistake would pass for a machine in order
+}
+
 EvidenceSearch::EvidenceSearch(const LinearModel& model, const Hyperparameters& h, const Explanations& explanations)
     : model_(model), hyper_(h), functions_(model.uneven.size()) {
   const double correlated = h.correlation > 0 ? kPriorCorrelated : 1;
@@ -62,8 +81,7 @@ void EvidenceSearch::extend(const Explanations& explanations, std::size_t same) 
   for (Ensemble& e : ensembles_) e.keep(same);
   for (Ensemble& e : ensembles_) e.add(std::span(explanations.variants).subspan(same));
   explanations_ = explanations.list;
-  log_weight_.clear();
-  for (const Variant& b : explanations.variants) log_weight_.push_back(std::log(b.weight));
+  log_weight_ = log_weights(explanations.variants);
   // A plan has no values yet: what it can tell is judged at the level that was stated.
   if (model_.y.squaredNorm() > 0) judge_recording();
 }
@@ -117,13 +135,6 @@ std::optional<Matrix> EvidenceSearch::uneven() const {
   return belief > kLikely ? std::optional<Matrix>(size * model_.uneven[function]) : std::nullopt;
 }
 
-double EvidenceSearch::log_bayes_of(const Explanation& x, const std::vector<double>& by_own_variant) const {
-  std::vector<double> variants;
-  for (std::size_t k = 0; k < x.variants.size(); ++k)
-    variants.push_back(by_own_variant[k] + log_weight_[x.variants[k]]);
-  return log_sum_exp(variants);
-}
-
 Vector EvidenceSearch::log_beliefs(const std::vector<Ensemble::Seen>& of, const std::vector<Ensemble::Seen>& added,
                                    const Vector& times, int explanation) const {
   const Explanation& x = explanations_[explanation];
@@ -132,8 +143,10 @@ Vector EvidenceSearch::log_beliefs(const std::vector<Ensemble::Seen>& of, const 
   const Matrix log_bayes = weigh(y, x.variants).log_bayes;
   Vector out(log_bayes.rows());
   for (Eigen::Index r = 0; r < out.size(); ++r) {
-    const Vector own = log_bayes.row(r);
-    out(r) = std::log(x.prior) + log_bayes_of(x, {own.begin(), own.end()});
+    std::vector<double> variants;
+    for (std::size_t k = 0; k < x.variants.size(); ++k)
+      variants.push_back(log_bayes(r, static_cast<Eigen::Index>(k)) + log_weight_[x.variants[k]]);
+    out(r) = std::log(x.prior) + log_sum_exp(variants);
   }
   return out;
 }
@@ -149,15 +162,7 @@ std::vector<Evidence> EvidenceSearch::judge(const std::vector<Ensemble::Seen>& y
     out.log_null = weighed.log_null(row);
     const Vector by_variant = weighed.log_bayes.row(row);
     out.variant_log_bayes.assign(by_variant.begin(), by_variant.end());
-    std::vector<double> all;
-    for (const Explanation& x : explanations_) {
-      std::vector<double> own;
-      for (const int k : x.variants) own.push_back(out.variant_log_bayes[k]);
-      out.log_bayes.push_back(log_bayes_of(x, own));
-      all.push_back(std::log(x.prior) + out.log_bayes.back());
-    }
-    out.statistic = log_sum_exp(all);
-    ABBE_CHECK(std::isfinite(out.statistic));  // or a mistake would pass for a machine in order
+    average_variants(explanations_, log_weight_, out);
   }
   return list;
 }

@@ -24,6 +24,11 @@ struct Evidence {
   double log_null = 0;  ///< log likelihood of the baseline, but for what recordings of as many rows share
 };
 
+/// By variant: the logarithm of the belief in it before the data, among those of its explanation.
+std::vector<double> log_weights(const std::vector<Variant>&);
+/// Fills `log_bayes` and `statistic` from those of the variants.
+void average_variants(const std::vector<Explanation>&, const std::vector<double>& log_weight, Evidence&);
+
 /// What the data say of the sizes of a variant with signature H, where P is the precision of the baseline: G = H' P H and
 /// u = H' P y.
 struct Information {
@@ -117,8 +122,6 @@ class EvidenceSearch {
     Matrix log_bayes;  ///< a row a recording; a column for each variant that was asked for
   };
   Weighed weigh(const std::vector<Ensemble::Sum>& y, const std::vector<int>& variants) const;
-  /// Of the variants of an explanation, averaged over them.
-  double log_bayes_of(const Explanation&, const std::vector<double>& by_own_variant) const;
   /// The recording itself, and the baseline that it has without any explanation and with the likeliest.
   void judge_recording();
   /// The ensemble that makes a recording likeliest, and its level.

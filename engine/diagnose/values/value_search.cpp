@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "engine/base/ids.hpp"
-#include "engine/diagnose/findings/search.hpp"
 #include "engine/diagnose/model/log_sums.hpp"
 
 namespace abbe::diagnose {
@@ -16,11 +14,13 @@ constexpr double kSizes[] = {0.3, 1, 3, 10};
 }  // namespace
 
 ValueSearch::ValueSearch(Vector mean, const Matrix& covariance, Explanations explanations, const Matrix& free)
-    : explanations_(std::move(explanations)), mean_(std::move(mean)), covariance_(covariance), root_(covariance) {
+    : explanations_(std::move(explanations)),
+      log_weight_(log_weights(explanations_.variants)),
+      mean_(std::move(mean)),
+      covariance_(covariance),
+      root_(covariance) {
   if (free.cols() > 0) free_ = independent(root_.whitened(free));
-  for (const Variant& b : explanations_.variants) {
-    told_.push_back(told_of(whitened(b.signature)));
-  }
+  for (const Variant& b : explanations_.variants) told_.push_back(told_of(whitened(b.signature)));
 }
 
 ValueSearch::Told ValueSearch::told_of(Matrix white) {
@@ -87,16 +87,7 @@ Evidence ValueSearch::evidence(const Vector& deviation) const {
     }
     out.variant_log_bayes.push_back(log_sum_exp(sizes) + log_offset);
   }
-  std::vector<double> all;
-  for (const Explanation& e : explanations_.list) {
-    std::vector<double> variants;
-    for (const int b : e.variants)
-      variants.push_back(out.variant_log_bayes[b] + std::log(explanations_.variants[b].weight));
-    out.log_bayes.push_back(log_sum_exp(variants));
-    all.push_back(std::log(e.prior) + out.log_bayes.back());
-  }
-  out.statistic = log_sum_exp(all);
-  ABBE_CHECK(std::isfinite(out.statistic));  // or a mistake would pass for a machine in order
+  average_variants(explanations_.list, log_weight_, out);
   return out;
 }
 

@@ -55,6 +55,7 @@ class ValueSearch {
     Cholesky root;  ///< of the covariance
   };
   Explanations explanations_;
+  std::vector<double> log_weight_;  ///< by variant
   Vector mean_;
   Matrix covariance_;
   Cholesky root_;             ///< V = L L'
