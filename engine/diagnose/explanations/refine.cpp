@@ -55,7 +55,7 @@ bool neighbours(const Variant& a, const Variant& b, const Effect& effect) {
 /// the wrong one.
 std::vector<int> cells_to_divide(const Explanations& all, const Explanation& e, const Evidence& evidence) {
   const auto variant = [&](int b) -> const Variant& { return all.variants[b]; };
-  const auto belief = [&](int b) { return evidence.variant_log_bayes[b] + std::log(variant(b).weight); };
+  const auto belief = [&](int b) { return log_belief(all, evidence, b); };
   std::vector<int> order = e.variants, list;
   std::sort(order.begin(), order.end(),
             [&](int a, int b) { return belief(a) != belief(b) ? belief(a) > belief(b) : a < b; });

@@ -34,8 +34,8 @@ std::vector<int> best_variants(const Explanations& explanations, const Evidence&
 
 int best_variant(const Explanations& all, int explanation, const Evidence& evidence) {
   const std::vector<int>& variants = all.list[explanation].variants;
-  const auto belief = [&](int b) { return evidence.variant_log_bayes[b] + std::log(all.variants[b].weight); };
-  return *std::max_element(variants.begin(), variants.end(), [&](int a, int b) { return belief(a) < belief(b); });
+  return *std::max_element(variants.begin(), variants.end(),
+                           [&](int a, int b) { return log_belief(all, evidence, a) < log_belief(all, evidence, b); });
 }
 
 bool says_something(const Evidence& evidence, int explanation) {
@@ -66,6 +66,17 @@ Finding finding_of(const Explanations& all, const Evidence& evidence, bool catal
   f.evidence = evidence;
   if (f.explanation < 0) return f;
   f.variant = best_variant(all, f.explanation, evidence);
+  f.best = best_variants(all, evidence);
+  return f;
+}
+
+Finding finding_of_one(const Explanations& all, const Evidence& evidence, int explanation) {
+  Finding f;
+  f.explanation = explanation;
+  f.set = {explanation};
+  f.probability = probabilities(all, evidence)[explanation];
+  f.variant = best_variant(all, explanation, evidence);
+  f.evidence = evidence;
   f.best = best_variants(all, evidence);
   return f;
 }

@@ -38,10 +38,14 @@ struct Finding : CredibleSet {
   std::optional<SizeDifference> sizes;  ///< of a name that has a law: how its size differs between touches
 
   int variant_of(int member) const { return member == explanation ? variant : best[member]; }
+  /// Takes another member of its set for the likeliest.
+  void put_first(int member) { variant = variant_of(member), explanation = member; }
 };
 
 /// The credible set with variants, of the variants that the evidence has seen.
 Finding finding_of(const Explanations&, const Evidence&, bool catalogue);
+/// One explanation by itself.
+Finding finding_of_one(const Explanations&, const Evidence&, int explanation);
 /// A name must be so many times as likely as no name. One that leaves something of the mismatch, where a pattern
 /// leaves less, must be far likelier: physics that the catalogue does not have looks like its nearest effect.
 inline constexpr double kNamed = 1, kNamedInDoubt = 100;

@@ -100,9 +100,7 @@ void put_judged_members_first(const Case& c, SearchResult& result) {
   for (Finding& f : result.findings) {
     if (!judged(c, f) || can_be(f.set.front())) continue;
     std::stable_partition(f.set.begin(), f.set.end(), can_be);
-    const int first = f.set.front();
-    f.variant = f.variant_of(first);
-    f.explanation = first;
+    f.put_first(f.set.front());
   }
 }
 
@@ -124,8 +122,7 @@ void drop_impossible_members(const Case& c, SearchResult& result) {
     bool possible_head = possible(c, result, k, f.explanation);
     while (!possible_head && f.set.size() > 1) {
       strike(0);
-      f.variant = f.variant_of(f.set.front());
-      f.explanation = f.set.front();
+      f.put_first(f.set.front());
       possible_head = possible(c, result, k, f.explanation);
     }
     if (!possible_head) {

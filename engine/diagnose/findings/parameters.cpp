@@ -129,9 +129,7 @@ class Estimator {
     const Evidence& evidence = search.evidence();
     const std::vector<int>& variants = mine.list.front().variants;
     const auto at = [&](int b) -> const Variant& { return mine.variants[b]; };
-    const auto belief = [&](int b) { return evidence.variant_log_bayes[b] + std::log(at(b).weight); };
-    const int likeliest =
-        *std::max_element(variants.begin(), variants.end(), [&](int a, int b) { return belief(a) < belief(b); });
+    const int likeliest = best_variant(mine, 0, evidence);
     // Of its values those that fit best are told: a cell that was not divided is believed more than one of three parts of
     // a likelier one.
     int best = likeliest;
@@ -139,7 +137,8 @@ class Estimator {
       if (alike(at(b), at(likeliest)) && evidence.variant_log_bayes[b] > evidence.variant_log_bayes[best]) best = b;
     std::vector<double> logs;  // told is the likeliest fault, over the values of what has a value between any two
     for (const int b : variants)
-      logs.push_back(alike(at(b), at(likeliest)) ? belief(b) : -std::numeric_limits<double>::infinity());
+      logs.push_back(alike(at(b), at(likeliest)) ? log_belief(mine, evidence, b)
+                                                 : -std::numeric_limits<double>::infinity());
     const double total = log_sum_exp(logs);
     for (std::size_t k = 0; k < variants.size(); ++k) {
       const double weight = std::exp(logs[k] - total);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 #include <utility>
 
@@ -46,14 +45,11 @@ Named named_on_finer_grid(Case& c, EvidenceSearch& search) {
   const Evidence& evidence = search.evidence();
   Named out{finding_of(fine, evidence, true), finding_of(fine, evidence, false)};
   out.name.best = out.pattern.best = best_variants(c.explanations, evidence);
-  const auto belief = [&](int b) { return evidence.variant_log_bayes[b] + std::log(fine.variants[b].weight); };
   ABBE_CHECK(out.name.explanation >= 0);  // the catalogue has effects that need nothing
-  const std::vector<int>& variants = fine.list[out.name.explanation].variants;
-  double best = -std::numeric_limits<double>::infinity();
-  for (const int b : variants) best = std::max(best, belief(b));
   const int likeliest = out.name.variant;
-  for (const int b : variants) {
-    if (b != likeliest && belief(b) < best - kVariantOutOfQuestion) continue;
+  const double least = log_belief(fine, evidence, likeliest) - kVariantOutOfQuestion;
+  for (const int b : fine.list[out.name.explanation].variants) {
+    if (log_belief(fine, evidence, b) < least) continue;
     if (b == likeliest) out.name.variant = static_cast<int>(c.explanations.variants.size());
     out.name.variants.push_back(static_cast<int>(c.explanations.variants.size()));
     c.explanations.variants.push_back(std::move(fine.variants[b]));
@@ -102,14 +98,7 @@ std::vector<Finding> second_thoughts(const Case& c, const Evidence& evidence, in
   for (const int k : likeliest_first(c.explanations, p, true)) {
     if (k == first) continue;
     if (out.size() == kMost) break;
-    Finding f;
-    f.evidence = evidence;
-    f.set = {k};
-    f.probability = p[k];
-    f.explanation = k;
-    f.variant = best_variant(c.explanations, k, evidence);
-    f.best = best_variants(c.explanations, evidence);
-    out.push_back(std::move(f));
+    out.push_back(finding_of_one(c.explanations, evidence, k));
   }
   return out;
 }
@@ -311,15 +300,7 @@ void drop_name_of_several_sizes(Case& c, EvidenceSearch& first, SearchResult& re
   result.first = first.evidence();
   result.nearest = std::move(result.findings.front());
   result.findings.clear();
-  const int pattern = static_cast<int>(c.explanations.list.size()) - 1;
-  Finding other;
-  other.explanation = pattern;
-  other.set = {pattern};
-  other.probability = probabilities(c.explanations, result.first)[pattern];
-  other.variant = static_cast<int>(before);
-  other.evidence = result.first;
-  other.best = best_variants(c.explanations, result.first);
-  result.other = std::move(other);
+  result.other = finding_of_one(c.explanations, result.first, static_cast<int>(c.explanations.list.size()) - 1);
   fit_beside_findings(c, result);
 }
 

@@ -39,6 +39,10 @@ bool is_near(double p, double level) {
 
 }  // namespace
 
+double log_belief(const Explanations& all, const Evidence& evidence, int variant) {
+  return evidence.variant_log_bayes[variant] + std::log(all.variants[variant].weight);
+}
+
 std::vector<double> log_weights(const std::vector<Variant>& variants) {
   std::vector<double> out;
   for (const Variant& b : variants) out.push_back(std::log(b.weight));

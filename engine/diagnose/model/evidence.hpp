@@ -24,6 +24,8 @@ struct Evidence {
   double log_null = 0;  ///< log likelihood of the baseline, but for what recordings of as many rows share
 };
 
+/// What is believed of a variant among those of its explanation, as a logarithm, but for what all of them share.
+double log_belief(const Explanations&, const Evidence&, int variant);
 /// By variant: the logarithm of the belief in it before the data, among those of its explanation.
 std::vector<double> log_weights(const std::vector<Variant>&);
 /// Fills `log_bayes` and `statistic` from those of the variants.

@@ -55,12 +55,10 @@ double adequacy_of(const ValueCase& c, const Closer& closer, const Finding& name
 }
 
 /// Of a set those first that need nothing untold.
-void put_told_first(const Explanations& all, const Evidence& evidence, Finding& name) {
+void put_told_first(const Explanations& all, Finding& name) {
   if (name.set.empty()) return;
   std::stable_partition(name.set.begin(), name.set.end(), [&](int k) { return !all.list[k].missing; });
-  if (name.set.front() == name.explanation) return;
-  name.explanation = name.set.front();
-  name.variant = best_variant(all, name.explanation, evidence);
+  name.put_first(name.set.front());
 }
 
 struct NameAndPattern {
@@ -77,7 +75,7 @@ NameAndPattern possible_name(const ValueCase& c, const Closer& closer, const Evi
   std::optional<NameAndPattern> likeliest;
   for (int k = 0; k < kTries; ++k) {
     NameAndPattern now{finding_of(all, left, true), finding_of(all, left, false)};
-    put_told_first(all, left, now.name);
+    put_told_first(all, now.name);
     if (!likeliest) likeliest = now;
     if (!likelier(now.name, now.pattern, kNamed)) break;
     if (all_plausible(parameters_of(c, closer, now.name))) return now;
@@ -92,10 +90,7 @@ std::optional<Finding> one_characteristic(const ValueCase& c, const Closer& clos
   const auto found = std::find_if(all.list.begin(), all.list.end(),
                                   [](const Explanation& e) { return e.shape == kOneCharacteristic; });
   if (found == all.list.end()) return std::nullopt;
-  Finding f;
-  f.explanation = static_cast<int>(found - all.list.begin());
-  f.variant = best_variant(all, f.explanation, evidence);
-  f.set = {f.explanation};
+  const Finding f = finding_of_one(all, evidence, static_cast<int>(found - all.list.begin()));
   return left_by_chance(c, closer, f) >= kInadequate ? std::optional(f) : std::nullopt;
 }
 
