@@ -1,9 +1,11 @@
 #include "engine/diagnose/case.hpp"
 
 #include <fmt/format.h>
-#include <numeric>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
+#include <numeric>
 
 #include "engine/diagnose/baseline/calibrated_part.hpp"
 #include "engine/diagnose/baseline/known_state.hpp"
@@ -65,6 +67,14 @@ void judge_rounding(double step_um, Case& c) {
   if (rounding_um < kLeastRounding * model.noise_um.mean()) return;
   c.rounding_um = rounding_um;
   add_rounding(*c.machine, rounding_um, model);
+}
+
+bool runs_share_a_setup(const Case& c) {
+  std::map<int, int> run_of;
+  return std::any_of(c.rows.begin(), c.rows.end(), [&](int row) {
+    const TouchScene& s = c.touches.touches[row].scene;
+    return run_of.try_emplace(s.setup, s.run).first->second != s.run;
+  });
 }
 
 std::vector<std::size_t> by_time(const RecordedTouches& t) {

@@ -27,6 +27,9 @@ struct Case {
   Hyperparameters hyper;
   bool rough = false;         ///< the machine's errors are rougher than the specification's ensemble
   Explanations explanations;  ///< on `rows`
+
+  /// Of a row of `model`.
+  const TouchScene& scene(Eigen::Index row) const { return touches.touches[rows[row]].scene; }
 };
 
 /// The touches, what the part is, and what a machine in order may do to them. `surfaces`: what they count as; without,
@@ -37,6 +40,9 @@ Case case_of(const Recording&, const Machine&, const DiagnoseOptions&, std::opti
 /// Positions are multiples of a step. Rounding is noise too: without it, what is rounded coarsely would lie on its steps
 /// without any.
 void judge_rounding(double step_um, Case&);
+
+/// Whether several runs share one placement of the part.
+bool runs_share_a_setup(const Case&);
 
 /// The touches in the order of their times.
 std::vector<std::size_t> by_time(const RecordedTouches&);

@@ -143,11 +143,9 @@ Basis basis_of(const Case& c, const Pieces& pieces) {
       std::vector<double> theta = pieces[k].theta;
       theta[p] = 1;
       b.columns.conservativeResize(static_cast<Eigen::Index>(c.rows.size()), b.columns.cols() + 1);
-      for (std::size_t i = 0; i < c.rows.size(); ++i) {
-        const TouchScene& scene = c.touches.touches[c.rows[i]].scene;
-        b.columns(static_cast<Eigen::Index>(i), b.columns.cols() - 1) =
-            kUmPerMm * dot(scene.normal, pieces[k].effect->displace(scene, theta.data(), nullptr));
-      }
+      for (Eigen::Index i = 0; i < b.columns.rows(); ++i)
+        b.columns(i, b.columns.cols() - 1) =
+            kUmPerMm * dot(c.scene(i).normal, pieces[k].effect->displace(c.scene(i), theta.data(), nullptr));
       b.of.emplace_back(k, p);
     }
   }

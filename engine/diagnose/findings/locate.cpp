@@ -73,7 +73,7 @@ class Strongest {
       case Factor::direction: {
         Eigen::Index strongest = 0;
         pattern_.cwiseAbs().maxCoeff(&strongest);
-        const Vec3 n = scene(strongest).normal;
+        const Vec3 n = case_.scene(strongest).normal;
         return {{"normal", fmt::format("{:.2f}, {:.2f}, {:.2f}", n.x, n.y, n.z)}};
       }
       case Factor::head:
@@ -93,8 +93,6 @@ class Strongest {
   }
 
  private:
-  const TouchScene& scene(Eigen::Index row) const { return case_.touches.touches[case_.rows[row]].scene; }
-
   /// Between which values lie the touches that have at least half of the most that any has; nothing when that is nearly
   /// everywhere.
   Places range(const Coordinate& along) const {
@@ -102,7 +100,7 @@ class Strongest {
     const double strong = kStrong * pattern_.cwiseAbs().maxCoeff();
     double low = 1e300, high = -1e300, first = 1e300, last = -1e300;
     for (Eigen::Index i = 0; i < pattern_.size(); ++i) {
-      const double at = along.of(scene(i));
+      const double at = along.of(case_.scene(i));
       first = std::min(first, at), last = std::max(last, at);
       if (std::abs(pattern_(i)) >= strong) low = std::min(low, at), high = std::max(high, at);
     }
@@ -122,7 +120,7 @@ class Strongest {
   Places label(const char* name, Value value) const {
     std::map<std::string, std::pair<double, double>> squares;  // sum, number
     for (Eigen::Index i = 0; i < pattern_.size(); ++i) {
-      auto& [sum, number] = squares[value(scene(i))];
+      auto& [sum, number] = squares[value(case_.scene(i))];
       sum += pattern_(i) * pattern_(i), number += 1;
     }
     const auto mean = [](const auto& of) { return of.second.first / of.second.second; };

@@ -66,11 +66,9 @@ class Groupings {
     return axis;
   }
 
-  const TouchScene& scene(int row) const { return c_.touches.touches[c_.rows[row]].scene; }
-
   void along(Factor factor, const Coordinate& coordinate) {
     std::vector<double> value;
-    for (std::size_t i = 0; i < c_.rows.size(); ++i) value.push_back(coordinate.of(scene(static_cast<int>(i))));
+    for (const int i : c_.rows) value.push_back(coordinate.of(c_.touches.touches[i].scene));
     add({factor, thirds(value), [value, coordinate](const std::vector<int>& rows) {
            double low = value[rows.front()], high = low;
            for (const int i : rows) low = std::min(low, value[i]), high = std::max(high, value[i]);
@@ -91,7 +89,7 @@ class Groupings {
 
   template <class Label>
   void as_touched(Factor factor, const std::vector<int>& group, Label label) {
-    add({factor, group, [this, label](const std::vector<int>& rows) { return label(scene(rows.front())); }});
+    add({factor, group, [this, label](const std::vector<int>& rows) { return label(c_.scene(rows.front())); }});
   }
 
   std::vector<int> sides() const {

@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <map>
 #include <set>
 
 #include "engine/diagnose/explanations/catalogue.hpp"
@@ -27,15 +26,6 @@ namespace {
 /// One recording in so many has a change of the scatter.
 constexpr double kPriorScatter = 0.01;
 
-/// Whether several runs share one placement of the part.
-bool stays_in_its_setup(const Case& c) {
-  std::map<int, int> run_of;
-  return std::any_of(c.rows.begin(), c.rows.end(), [&](int row) {
-    const TouchScene& s = c.touches.touches[row].scene;
-    return run_of.try_emplace(s.setup, s.run).first->second != s.run;
-  });
-}
-
 /// What of a variant changes between runs. Where it stands for a stretch of runs that holds the one of the
 /// finding, it is that.
 RunChange change_of(const Variant& variant, const Variant& found) {
@@ -47,11 +37,11 @@ RunChange change_of(const Variant& variant, const Variant& found) {
 /// Whether a tip that showed what is gone touched anything since. A head that stands elsewhere shows nothing of it.
 bool was_looked_for(const Case& c, const Variant& gone) {
   std::set<int> before, since;
-  for (std::size_t k = 0; k < c.rows.size(); ++k) {
-    const TouchScene& s = c.touches.touches[c.rows[k]].scene;
+  for (Eigen::Index k = 0; k < gone.signature.rows(); ++k) {
+    const TouchScene& s = c.scene(k);
     if (!gone.change.acts_in(s.run))
       since.insert(s.stylus.tip_ordinal);
-    else if (gone.signature.row(static_cast<Eigen::Index>(k)).squaredNorm() > 0)
+    else if (gone.signature.row(k).squaredNorm() > 0)
       before.insert(s.stylus.tip_ordinal);
   }
   return std::any_of(since.begin(), since.end(), [&](int tip) { return before.contains(tip); });
@@ -138,7 +128,7 @@ void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
       e.sentence +=
           " That it is gone nobody has seen: no orientation in which it was there was touched since. Touch one of them again.";
     e.sentence += in_file;
-    if (change.any() && stays_in_its_setup(c))
+    if (change.any() && runs_share_a_setup(c))
       e.sentence +=
           " That takes for granted that the part did not move between the runs; if it may have, give them different setups.";
     out.effects.push_back(std::move(e));

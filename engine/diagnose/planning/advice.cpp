@@ -232,14 +232,9 @@ std::string to_know_sizes(const Case& c, const SearchResult& result) {
 /// A part that was moved between runs of one setup makes what begins with a run, or goes on in time. Of names that are new in a
 /// run their sentence says it (findings/tell.cpp).
 std::string to_part_runs(const Case& c, const SearchResult& result) {
-  std::map<int, int> run_in;
-  const bool shared = std::any_of(c.rows.begin(), c.rows.end(), [&](int row) {
-    const TouchScene& s = c.touches.touches[row].scene;
-    return run_in.try_emplace(s.setup, s.run).first->second != s.run;
-  });
   const Explanations& all = c.explanations;
   const auto new_in_run = [&](const Finding& f) { return all.variants[f.variant].change.any(); };
-  if (!shared || std::any_of(result.findings.begin(), result.findings.end(), new_in_run)) return "";
+  if (!runs_share_a_setup(c) || std::any_of(result.findings.begin(), result.findings.end(), new_in_run)) return "";
   const auto over_runs = [&](const Finding& f) {
     if (f.probability >= kTold && !result.other) return false;
     const Factor factor = shown_in(c, all.list[f.explanation]);

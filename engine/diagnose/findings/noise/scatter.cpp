@@ -9,10 +9,6 @@
 
 namespace abbe::diagnose {
 
-const TouchScene& scene_of_row(const Case& c, Eigen::Index row) {
-  return c.touches.touches[c.rows[static_cast<std::size_t>(row)]].scene;
-}
-
 // The gain of independent normal residuals has half a chi-squared law; that of others is larger by the variance of the
 // score, sum of share times square, over what it would be for those.
 Excess excess_along(const Residuals& r, const Vector& share) {
@@ -35,7 +31,7 @@ Excess excess_along(const Residuals& r, const Vector& share) {
 
 std::optional<Vector> share_along(const Case& c, int axis) {
   Vector along(static_cast<Eigen::Index>(c.rows.size()));
-  for (Eigen::Index k = 0; k < along.size(); ++k) along(k) = std::pow(scene_of_row(c, k).normal[axis], 2);
+  for (Eigen::Index k = 0; k < along.size(); ++k) along(k) = std::pow(c.scene(k).normal[axis], 2);
   if ((along.array() - along.mean()).square().sum() < 1) return std::nullopt;
   return along;
 }
@@ -57,7 +53,7 @@ std::vector<std::pair<Eigen::Index, Eigen::Index>> repeats_in(const Case& c, con
   std::vector<std::pair<Eigen::Index, Eigen::Index>> out;
   for (Eigen::Index k = 0; k < in.size(); ++k) {
     if (in(k) < 0.5) continue;
-    const auto [at, is_first] = first.try_emplace(place_of(scene_of_row(c, k)), k);
+    const auto [at, is_first] = first.try_emplace(place_of(c.scene(k)), k);
     if (!is_first) out.emplace_back(at->second, k);
   }
   return out;

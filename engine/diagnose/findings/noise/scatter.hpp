@@ -43,8 +43,6 @@ double chance_of_excess(double chi2);
 /// relative standard uncertainty. Squares of so uncertain a ratio have the law of chi-squared (Wilson & Hilferty 1931).
 double chance_of_ratio(double ratio, double relative_u);
 
-const TouchScene& scene_of_row(const Case&, Eigen::Index row);
-
 /// Repeats of one touch, with the same stylus at the same place, among rows of which more than half counts: the first
 /// and a later one. Where there are enough of them, they tell scatter from a pattern too fine for the recording.
 std::vector<std::pair<Eigen::Index, Eigen::Index>> repeats_in(const Case&, const Vector& in);

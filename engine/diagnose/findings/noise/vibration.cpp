@@ -23,11 +23,8 @@ std::optional<bool> alike_along_all_axes(const Case& c, const Residuals& r) {
   for (int axis = 0; axis < 3; ++axis) {
     double square = 0;
     int count = 0;
-    for (std::size_t k = 0; k < c.rows.size(); ++k) {
-      const TouchScene& s = c.touches.touches[c.rows[k]].scene;
-      if (std::abs(s.normal[axis]) < kAlong) continue;
-      square += std::pow(r.standardised(static_cast<Eigen::Index>(k)), 2), ++count;
-    }
+    for (Eigen::Index k = 0; k < r.standardised.size(); ++k)
+      if (std::abs(c.scene(k).normal[axis]) >= kAlong) square += std::pow(r.standardised(k), 2), ++count;
     if (count < kEnough) continue;
     ++axes;
     const double rms = std::sqrt(square / count);
