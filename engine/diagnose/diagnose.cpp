@@ -137,12 +137,6 @@ std::string known_state_beside(const Case& c, const SearchResult& result) {
   return write_known_state(posterior(beside, hyper, c.rough ? Errors::rough : Errors::harmonic), hyper);
 }
 
-/// An effect that could be judged but would not show at any size is hidden by what is unknown of the part.
-void add_hidden(const Case& c, Diagnosis& out) {
-  for (const Explanation& e : c.explanations.list)
-    if (e.effect && !tells_of(out, e.name)) out.cannot_judge.push_back({e.name, {}, {}});
-}
-
 /// The unknowns of the recording explain whatever it holds: no effect of any size would show.
 void tell_nothing_judged(const Case& c, const std::string& file, Diagnosis& out) {
   const bool surfaces = c.baseline.surfaces == Surfaces::unknown;
@@ -230,7 +224,7 @@ EvidenceSearch search_of(Case& c, bool plan, double reading_step_um) {
 void tell_power(const Case& c, const EvidenceSearch& search, Diagnosis& out) {
   out.cannot_judge = cannot_judge(c.explanations);
   out.smallest_detectable = smallest_detectable(c, search);
-  add_hidden(c, out);
+  add_hidden(c.explanations, out);
   if (!out.smallest_detectable.empty()) add_smallest_scatter(c, out);
 }
 

@@ -480,4 +480,9 @@ std::vector<CannotJudge> cannot_judge(const Explanations& all) {
   return out;
 }
 
+void add_hidden(const Explanations& all, Diagnosis& out) {
+  for (const Explanation& e : all.list)
+    if (e.effect && !tells_of(out, e.name)) out.cannot_judge.push_back({e.name, {}, {}});
+}
+
 }  // namespace abbe::diagnose

@@ -19,6 +19,8 @@ void add_explanations_of_readings(const RecordedTouches&, const std::vector<int>
 
 /// What cannot be judged, in the order of the catalogue, with the columns that are missing.
 std::vector<CannotJudge> cannot_judge(const Explanations&);
+/// Adds the effects that could be judged but would not show at any size, as what is unknown of the part hides them.
+void add_hidden(const Explanations&, Diagnosis&);
 
 /// The effects of these names only, in the order of the names.
 Explanations named_explanations(const RecordedTouches&, const std::vector<int>& rows,

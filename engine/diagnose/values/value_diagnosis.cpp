@@ -39,12 +39,6 @@ std::vector<JudgedValue> judge_each(const ValueCase& c) {
   return out;
 }
 
-/// What no possible size makes seen cannot be judged.
-void tell_hidden(const ValueSearch& search, Diagnosis& out) {
-  for (const Explanation& e : search.explanations().list)
-    if (e.effect && !e.missing && !tells_of(out, e.name)) out.cannot_judge.push_back({e.name, {}, {}});
-}
-
 void tell_references_only(const ValueCase& c, Diagnosis& out) {
   out.judged = Judged::targets_only;
   out.verdict = Verdict::cannot_judge;
@@ -105,7 +99,7 @@ Diagnosis diagnose_values(const ValueRecording& recording, const std::vector<Val
   begins(options.progress, "what these values could detect");
   const std::vector<double> in_order = statistics_of(*c.search, c.judges.judged);
   out.smallest_detectable = smallest_detectable(*c.search, reference_of(c), in_order);
-  tell_hidden(*c.search, out);
+  add_hidden(c.search->explanations(), out);
   if (options.design_only) return out;
   out.values = judge_each(c);
   if (references_only) {
