@@ -39,12 +39,12 @@ class Plantation {
  public:
   Plantation(const std::vector<RecordedValue>& values, const std::vector<ValueProgram>& programs,
              const Machine& machine, const VirtualMachines& machines, const DiagnoseOptions& options)
-      : values_(values), programs_(programs), machine_(machine), options_(options) {
-    one_.index = {machines.index.front()};
-    one_.geometry = {machines.geometry.front()};
-    one_.v = {machines.v.front()};
-    for (RecordedValue& v : values_) v.repeat = v.program;  // nothing is drawn: one repeat tells them all
-    options_.threads = 1;                                   // plantings are on threads
+      : values_(one_repeat(values)),  // nothing is drawn: one tells them all
+        programs_(programs),
+        machine_(machine),
+        options_(options),
+        one_(first_of(machines, 1)) {
+    options_.threads = 1;  // plantings are on threads
     contributors_.effects = true;
   }
 
