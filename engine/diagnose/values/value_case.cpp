@@ -53,11 +53,6 @@ Judges judges_of(const Matrix& simulated, const Matrix& recorded, std::uint64_t 
   return out;
 }
 
-ValueReference reference_of(const ValueCase& c) {
-  return {c.ensemble.values,    *c.programs, *c.machine,    *c.options,          c.ensemble.machines,
-          c.ensemble.simulated, c.deviation, c.judges.mean, c.judges.covariance, c.recorded};
-}
-
 std::string program_of(const ValueCase& c, std::size_t value) {
   const std::string& said = c.recording->rows[value].program;
   const SourceFile& source = *(*c.programs)[c.ensemble.values[value].program].source;

@@ -5,10 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "engine/diagnose/findings/finding.hpp"
-#include "engine/diagnose/values/value_estimate.hpp"
+#include "engine/diagnose/values/value_ensemble.hpp"
+#include "engine/diagnose/values/value_search.hpp"
 
 namespace abbe::diagnose {
+
+/// What rounding leaves of a value that no error reaches.
+inline constexpr double kLeastOfValue_um = 1e-3;
 
 /// Simulated machines that values are compared with.
 struct Judges {
@@ -45,22 +48,10 @@ bool enough(const Matrix& simulated);
 /// `simulated`: machines x values, more than twice as many machines as values.
 Judges judges_of(const Matrix& simulated, const Matrix& recorded, std::uint64_t seed);
 
-ValueReference reference_of(const ValueCase&);
-
 /// As the recording calls the program of a value, else the name of its file.
 std::string program_of(const ValueCase&, std::size_t value);
 
 /// What each value is called, repeats alike: "LX2 of part.dmi"; the evaluation too, where it is not the first.
 std::vector<std::string> labels_of(const ValueCase&);
-
-/// The search once more, beside the errors that a machine has.
-struct Closer {
-  ValueSearch search;
-  std::map<int, Sizes> sizes;  ///< by variant, of the likeliest
-
-  explicit Closer(const ValueCase& c) : search(*c.search), sizes(linearise_likeliest(search, reference_of(c))) {}
-  const Variant& variant(const Finding& f) const { return search.explanations().variants[f.variant]; }
-  const Explanation& explanation(const Finding& f) const { return search.explanations().list[f.explanation]; }
-};
 
 }  // namespace abbe::diagnose

@@ -98,7 +98,7 @@ Diagnosis diagnose_values(const ValueRecording& recording, const std::vector<Val
   out.cannot_judge = cannot_judge(c.search->explanations());
   begins(options.progress, "what these values could detect");
   const std::vector<double> in_order = statistics_of(*c.search, c.judges.judged);
-  out.smallest_detectable = smallest_detectable(*c.search, reference_of(c), in_order);
+  out.smallest_detectable = smallest_detectable(c, in_order);
   add_hidden(c.search->explanations(), out);
   if (options.design_only) return out;
   out.values = judge_each(c);

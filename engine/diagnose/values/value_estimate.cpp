@@ -39,18 +39,19 @@ Vector variances(const Matrix& machines) {
 }
 
 /// Correlated as values of machines without the effect are, with the scatter that these have with it.
-Matrix rescaled(const Matrix& machines, const ValueReference& b) {
-  const Vector variance = variances(machines) + b.recorded.rowwise().squaredNorm();
-  const Vector by = ((variance.array() + kLeastOfValue_um * kLeastOfValue_um) / b.covariance.diagonal().array()).sqrt();
-  return by.asDiagonal() * b.covariance * by.asDiagonal();
+Matrix rescaled(const Matrix& machines, const ValueCase& c) {
+  const Vector variance = variances(machines) + c.recorded.rowwise().squaredNorm();
+  const Vector by =
+      ((variance.array() + kLeastOfValue_um * kLeastOfValue_um) / c.judges.covariance.diagonal().array()).sqrt();
+  return by.asDiagonal() * c.judges.covariance * by.asDiagonal();
 }
 
 /// Of few machines: what their number leaves open of the correlations is that of machines without the effect.
-Matrix covariance_of(const Matrix& machines, const ValueReference& b) {
+Matrix covariance_of(const Matrix& machines, const ValueCase& c) {
   const Matrix centred = machines.rowwise() - machines.colwise().mean();
-  const Matrix seen = centred.transpose() * centred / double(machines.rows() - 1) + b.recorded * b.recorded.transpose();
+  const Matrix seen = centred.transpose() * centred / double(machines.rows() - 1) + c.recorded * c.recorded.transpose();
   const double share = double(machines.rows()) / double(machines.rows() + machines.cols());
-  return share * seen + (1 - share) * rescaled(machines, b);
+  return share * seen + (1 - share) * rescaled(machines, c);
 }
 
 /// Fewer would make the scatter that a covariance is estimated with, of so many values, look like a mismatch.
@@ -81,12 +82,12 @@ void follow(Matrix& slopes, const Vector& step, const Vector& change) {
 
 class ValueEstimator {
  public:
-  explicit ValueEstimator(const ValueReference& b)
-      : reference_(b),
-        few_(first_of(b.machines, kFew)),
-        all_(first_of(b.machines, machines_beside(b.values.size()))),
-        once_(one_repeat(b.values)),
-        without_(simulated_values(once_, b.programs, b.machine, few_, b.options)) {}
+  explicit ValueEstimator(const ValueCase& c)
+      : case_(c),
+        few_(first_of(c.ensemble.machines, kFew)),
+        all_(first_of(c.ensemble.machines, machines_beside(c.ensemble.values.size()))),
+        once_(one_repeat(c.ensemble.values)),
+        without_(simulated_values(once_, *c.programs, *c.machine, few_, *c.options)) {}
 
   /// Nothing where hardly a machine with the effect reaches the values.
   std::optional<BesideErrors> estimate(const Effect&, const Variant&, const Vector& start) const;
@@ -100,7 +101,7 @@ class ValueEstimator {
   std::optional<Matrix> slopes_at(const Effect&, const Variant&, const Vector& sizes, const OnFew&) const;
   std::optional<OnAll> on_all(const Effect&, const Variant&, const Vector& sizes) const;
 
-  const ValueReference& reference_;
+  const ValueCase& case_;
   VirtualMachines few_, all_;
   std::vector<RecordedValue> once_;
   Matrix without_;  ///< of the few: deviations without an effect
@@ -109,18 +110,18 @@ class ValueEstimator {
 bool hardly_any(const Matrix& reached, const VirtualMachines& of) { return reached.rows() < of.size() / 4; }
 
 Matrix ValueEstimator::few_with(const Effect& effect, const Variant& variant, const Vector& sizes) const {
-  const ValueReference& b = reference_;
-  return simulated_values(once_, b.programs, with_effect(b.machine, effect, variant, sizes), few_, b.options);
+  const ValueCase& c = case_;
+  return simulated_values(once_, *c.programs, with_effect(*c.machine, effect, variant, sizes), few_, *c.options);
 }
 
 std::optional<OnFew> ValueEstimator::on_few(const Effect& effect, const Variant& variant, const Vector& sizes) const {
-  const ValueReference& b = reference_;
-  OnFew out{few_with(effect, variant, sizes), {}, b.covariance};
+  const ValueCase& c = case_;
+  OnFew out{few_with(effect, variant, sizes), {}, c.judges.covariance};
   const Matrix added = complete(out.um - without_);
   if (hardly_any(added, few_)) return std::nullopt;
   out.added = added.colwise().mean();
-  out.adds = (variances(added).array() < kAdds * kAdds * b.covariance.diagonal().array()).all();
-  if (!out.adds) out.covariance = rescaled(complete(out.um), b);
+  out.adds = (variances(added).array() < kAdds * kAdds * c.judges.covariance.diagonal().array()).all();
+  if (!out.adds) out.covariance = rescaled(complete(out.um), c);
   return out;
 }
 
@@ -137,26 +138,27 @@ std::optional<Matrix> ValueEstimator::slopes_at(const Effect& effect, const Vari
 }
 
 std::optional<OnAll> ValueEstimator::on_all(const Effect& effect, const Variant& variant, const Vector& sizes) const {
-  const ValueReference& b = reference_;
-  const Eigen::Index n = b.simulated.cols();
+  const ValueCase& c = case_;
+  const Eigen::Index n = c.ensemble.simulated.cols();
   Matrix side_by_side(all_.size(), 2 * n);
-  side_by_side << b.simulated.topRows(all_.size()),
-      simulated_values(b.values, b.programs, with_effect(b.machine, effect, variant, sizes), all_, b.options);
+  side_by_side << c.ensemble.simulated.topRows(all_.size()),
+      simulated_values(c.ensemble.values, *c.programs, with_effect(*c.machine, effect, variant, sizes), all_,
+                       *c.options);
   const Matrix reached = complete(side_by_side);
   if (hardly_any(reached, all_)) return std::nullopt;
   const Matrix with = reached.rightCols(n);
-  return OnAll{(with - reached.leftCols(n)).colwise().mean(), covariance_of(with, b)};
+  return OnAll{(with - reached.leftCols(n)).colwise().mean(), covariance_of(with, c)};
 }
 
 std::optional<BesideErrors> ValueEstimator::estimate(const Effect& effect, const Variant& variant,
                                                      const Vector& start) const {
-  const ValueReference& b = reference_;
+  const ValueCase& c = case_;
   BesideErrors out;
   out.sizes.mean = start;
   Vector at, added;
   std::optional<Matrix> slopes;
   std::optional<OnAll> all;
-  Vector beyond_few = Vector::Zero(b.deviation.size());
+  Vector beyond_few = Vector::Zero(c.deviation.size());
   // First to where sizes settle; then once more, with the slopes of that place and what all machines say there.
   bool settled = false, closer = false;
   for (int step = 0;;) {
@@ -186,7 +188,7 @@ std::optional<BesideErrors> ValueEstimator::estimate(const Effect& effect, const
         slopes->transpose() * weighted + Matrix::Identity(at.size(), at.size()) / (kWide * kWide);
     const Matrix gain = Cholesky(information).solve(Matrix(weighted.transpose()));
     out.near = {*slopes, here - *slopes * at, covariance};
-    out.sizes = {at + gain * (b.deviation - b.mean - here), gain * covariance * gain.transpose(), !all};
+    out.sizes = {at + gain * (c.deviation - c.judges.mean - here), gain * covariance * gain.transpose(), !all};
     const Vector change = possible_sizes(effect, variant, out.sizes.mean) - at;
     settled = (change.array().abs() < kSettled * out.sizes.covariance.diagonal().array().sqrt()).all() ||
         ++step >= kNewtonSteps;
@@ -240,17 +242,17 @@ Machine with_effect(const Machine& machine, const Effect& effect, const Variant&
   return planted;
 }
 
-std::map<int, Sizes> linearise_likeliest(ValueSearch& search, const ValueReference& reference) {
-  const ValueEstimator estimator(reference);
+std::map<int, Sizes> linearise_likeliest(ValueSearch& search, const ValueCase& c) {
+  const ValueEstimator estimator(c);
   std::map<int, Sizes> out;
   std::set<int> tried;
   while (tried.size() < kMost) {
-    const int b = next_variant(search, reference.deviation, tried);
+    const int b = next_variant(search, c.deviation, tried);
     if (b < 0) break;
     tried.insert(b);
     const Variant& variant = search.explanations().variants[b];
     const Effect& effect = *search.explanations().list[variant.explanation].effect;
-    const auto found = estimator.estimate(effect, variant, sizes_of(search, b, reference.deviation).mean);
+    const auto found = estimator.estimate(effect, variant, sizes_of(search, b, c.deviation).mean);
     if (!found) continue;
     search.linearise(b, found->near);
     out.emplace(b, found->sizes);

@@ -1,7 +1,7 @@
 // Whether what was told of recorded values predicts others that it was not fitted to.
 #pragma once
 
-#include "engine/diagnose/values/value_case.hpp"
+#include "engine/diagnose/values/value_estimate.hpp"
 
 namespace abbe::diagnose {
 

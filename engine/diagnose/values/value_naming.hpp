@@ -1,7 +1,7 @@
 // Which explanation of recorded values is told: a name, or what stands for none.
 #pragma once
 
-#include "engine/diagnose/values/value_case.hpp"
+#include "engine/diagnose/values/value_estimate.hpp"
 
 namespace abbe::diagnose {
 

@@ -5,9 +5,9 @@
 #include <optional>
 
 #include "engine/base/on_threads.hpp"
-#include "engine/diagnose/case.hpp"
 #include "engine/diagnose/levels.hpp"
 #include "engine/diagnose/quantile.hpp"
+#include "engine/diagnose/values/value_estimate.hpp"
 
 namespace abbe::diagnose {
 
@@ -45,12 +45,8 @@ double left(const ValueSearch& s, int variant, Eigen::Index column, int rival) {
 
 class Detection {
  public:
-  Detection(const ValueSearch& search, const ValueReference& reference, double alarm)
-      : search_(search),
-        reference_(reference),
-        options_(reference.options),
-        alarm_(alarm),
-        machines_(first_of(reference.machines, kMachines)) {
+  Detection(const ValueCase& c, double alarm)
+      : case_(c), options_(*c.options), alarm_(alarm), machines_(first_of(c.ensemble.machines, kMachines)) {
     options_.threads = 1;  // effects are on threads
   }
 
@@ -59,7 +55,7 @@ class Detection {
   std::optional<double> from(const Effect& effect, const ValueForm& of) const {
     constexpr double kLeast = 0.5, kFar = 16;
     constexpr int kHalvings = 6;
-    const Variant& variant = search_.explanations().variants[of.variant];
+    const Variant& variant = case_.search->explanations().variants[of.variant];
     const Column& column = variant.columns[of.column];
     const double about = kDetects / std::sqrt(of.information),
                  largest = effect.parameters[column.parameter].high / column.unit;
@@ -79,18 +75,17 @@ class Detection {
   static constexpr int kMachines = 25;
 
   double share_of_alarms(const Effect& effect, const Variant& variant, const Vector& sizes) const {
-    const Machine with = with_effect(reference_.machine, effect, variant, sizes);
+    const Machine with = with_effect(*case_.machine, effect, variant, sizes);
     const Matrix reached =
-        complete(simulated_values(reference_.values, reference_.programs, with, machines_, options_));
+        complete(simulated_values(case_.ensemble.values, *case_.programs, with, machines_, options_));
     const std::vector<double> statistics =
-        statistics_of(search_, as_recorded(reached, reference_.recorded, options_.seed));
+        statistics_of(*case_.search, as_recorded(reached, case_.recorded, options_.seed));
     const auto alarms =
         std::count_if(statistics.begin(), statistics.end(), [&](double statistic) { return statistic > alarm_; });
     return double(alarms) / std::max(1.0, double(statistics.size()));
   }
 
-  const ValueSearch& search_;
-  const ValueReference& reference_;
+  const ValueCase& case_;
   DiagnoseOptions options_;
   double alarm_;
   VirtualMachines machines_;
@@ -116,14 +111,14 @@ void tell_apart(const ValueSearch& s, int explanation, const ValueForm& of, doub
 
 }  // namespace
 
-std::vector<Detectable> smallest_detectable(const ValueSearch& s, const ValueReference& reference,
-                                            std::vector<double> in_order) {
-  const Detection detection(s, reference, quantile(std::move(in_order), 1 - kAlarm));
+std::vector<Detectable> smallest_detectable(const ValueCase& c, std::vector<double> in_order) {
+  const ValueSearch& s = *c.search;
+  const Detection detection(c, quantile(std::move(in_order), 1 - kAlarm));
   const Explanations& all = s.explanations();
   const int count = static_cast<int>(all.list.size());
   std::vector<std::optional<ValueForm>> form(all.list.size());
   std::vector<std::optional<double>> from(all.list.size());
-  on_threads(count, reference.options.threads, [&](int k) {
+  on_threads(count, c.options->threads, [&](int k) {
     const Explanation& e = all.list[k];
     const auto at = static_cast<std::size_t>(k);
     if (e.effect && !e.missing) form[at] = middle_form(s, e);
@@ -138,7 +133,7 @@ std::vector<Detectable> smallest_detectable(const ValueSearch& s, const ValueRef
     const Variant& variant = all.variants[of.variant];
     const Column& column = variant.columns[of.column];
     const EffectParameter& p = e.effect->parameters[column.parameter];
-    const double largest = variant.signature(of_figures(reference.values), of.column).cwiseAbs().maxCoeff();
+    const double largest = variant.signature(of_figures(c.ensemble.values), of.column).cwiseAbs().maxCoeff();
     Detectable d{.effect = e.name,
                  .parameter = std::string(p.name),
                  .unit = std::string(p.unit),

@@ -4,12 +4,12 @@
 
 #include <vector>
 
-#include "engine/diagnose/values/value_estimate.hpp"
+#include "engine/diagnose/values/value_case.hpp"
 
 namespace abbe::diagnose {
 
 /// Of each effect of the catalogue that some possible size makes seen in kPowerShare of recordings, in the form (axis,
 /// phase) in the middle. `in_order`: what the search says of machines in order.
-std::vector<Detectable> smallest_detectable(const ValueSearch&, const ValueReference&, std::vector<double> in_order);
+std::vector<Detectable> smallest_detectable(const ValueCase&, std::vector<double> in_order);
 
 }  // namespace abbe::diagnose

@@ -1,7 +1,7 @@
 // The words and figures of what a diagnosis of values has found.
 #pragma once
 
-#include "engine/diagnose/values/value_case.hpp"
+#include "engine/diagnose/values/value_estimate.hpp"
 
 namespace abbe::diagnose {
 
