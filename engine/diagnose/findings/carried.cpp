@@ -40,8 +40,19 @@ EffectSetting without_contradiction(const Effect& effect, EffectSetting setting)
 
 }  // namespace
 
-EffectSetting setting_from(const std::string& effect, const std::vector<DiagnosedParameter>& figures) {
-  EffectSetting setting{effect, {}};
+EffectSetting setting_at(const Effect& effect, const std::vector<double>& theta) {
+  EffectSetting s{std::string(effect.name), {}};
+  for (std::size_t p = 0; p < theta.size(); ++p) {
+    const EffectParameter& parameter = effect.parameters[p];
+    EffectSetting::Value& value = s.parameters[std::string(parameter.name)];
+    value.value = theta[p];
+    if (!parameter.choices.empty()) value.word = parameter.choices[std::lround(theta[p] - parameter.low)];
+  }
+  return s;
+}
+
+EffectSetting setting_from(const Effect& effect, const std::vector<DiagnosedParameter>& figures) {
+  EffectSetting setting{std::string(effect.name), {}};
   for (const DiagnosedParameter& p : figures) setting.parameters[p.name] = {p.value, p.word.empty() ? p.u : 0, p.word};
   return setting;
 }
@@ -77,7 +88,7 @@ std::string when_in_file(const Effect& effect, const EffectSetting& setting) {
 }  // namespace
 
 std::string carry(const Machine& machine, const Effect& effect, std::vector<DiagnosedParameter>& size, Diagnosis& out) {
-  EffectSetting setting = setting_from(std::string(effect.name), size);
+  EffectSetting setting = setting_from(effect, size);
   std::optional<KnownEffect> before = known_effect(machine, effect, setting);
   const auto& taken = out.superseded;
   if (before && std::find(taken.begin(), taken.end(), before->index) != taken.end()) before.reset();

@@ -14,8 +14,10 @@ namespace abbe::diagnose {
 inline constexpr double kCarried = 0.1;
 inline constexpr const char* kNotCarried = " It is one of so many that no machine file carries it.";
 
+/// With these values of its parameters; choices as words.
+EffectSetting setting_at(const Effect&, const std::vector<double>& theta);
 /// With the values as figures say them.
-EffectSetting setting_from(const std::string& effect, const std::vector<DiagnosedParameter>& figures);
+EffectSetting setting_from(const Effect&, const std::vector<DiagnosedParameter>& figures);
 
 /// Sizes beside the catalogue's range, but within their uncertainty of it, at its end: a force of -0.01 ±
 /// 0.02 N may be none. Those that do not go together are made smaller by one factor until they do: less than their

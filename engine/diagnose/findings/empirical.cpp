@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "engine/diagnose/findings/carried.hpp"
 #include "engine/effects/empirical/empirical.hpp"
 #include "engine/math/units.hpp"
 
@@ -219,15 +220,11 @@ Vector uncertainties(const Basis& basis, const Matrix& between, const Matrix& pa
       .cwiseSqrt();
 }
 
+/// Without its sizes.
 EffectSetting setting_of(const Piece& piece) {
-  EffectSetting s{std::string(piece.effect->name), {}};
-  for (std::size_t p = 0; p < piece.theta.size(); ++p) {
-    const EffectParameter& parameter = piece.effect->parameters[p];
-    if (parameter.linear) continue;
-    EffectSetting::Value& v = s.parameters[std::string(parameter.name)];
-    v.value = piece.theta[p];
-    if (!parameter.choices.empty()) v.word = parameter.choices[std::lround(piece.theta[p] - parameter.low)];
-  }
+  EffectSetting s = setting_at(*piece.effect, piece.theta);
+  for (const EffectParameter& p : piece.effect->parameters)
+    if (p.linear) s.parameters.erase(std::string(p.name));
   return s;
 }
 

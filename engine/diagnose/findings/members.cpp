@@ -45,7 +45,7 @@ bool possible(const Case& c, const SearchResult& result, std::size_t k, int memb
   const Effect& effect = *c.explanations.list[member].effect;
   if (!shows(effect, size)) return false;
   if (c.explanations.variants[f.variant_of(member)].change.gone()) return all_plausible(found);
-  const auto known = known_effect(*c.machine, effect, setting_from(std::string(effect.name), found));
+  const auto known = known_effect(*c.machine, effect, setting_from(effect, found));
   if (!known) return all_plausible(found);
   return known->gone || plausible(effect, nearest_possible(effect, known->now));
 }

@@ -5,7 +5,7 @@
 #include <limits>
 #include <set>
 
-#include "engine/diagnose/values/value_signature.hpp"
+#include "engine/diagnose/findings/carried.hpp"
 
 namespace abbe::diagnose {
 

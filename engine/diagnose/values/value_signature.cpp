@@ -6,6 +6,7 @@
 #include "engine/base/on_threads.hpp"
 #include "engine/diagnose/explanations/patterns/families.hpp"
 #include "engine/diagnose/explanations/patterns/patterns.hpp"
+#include "engine/diagnose/findings/carried.hpp"
 #include "engine/effects/effect.hpp"
 #include "engine/run/run.hpp"
 
@@ -171,17 +172,6 @@ void add_pattern(Explanations& out, Factor factor, const char* shape, Matrix sig
 }
 
 }  // namespace
-
-EffectSetting setting_at(const Effect& effect, const std::vector<double>& theta) {
-  EffectSetting s{std::string(effect.name), {}};
-  for (std::size_t p = 0; p < theta.size(); ++p) {
-    const EffectParameter& parameter = effect.parameters[p];
-    EffectSetting::Value& value = s.parameters[std::string(parameter.name)];
-    value.value = theta[p];
-    if (!parameter.choices.empty()) value.word = parameter.choices[std::lround(theta[p] - parameter.low)];
-  }
-  return s;
-}
 
 Explanations value_explanations(const std::vector<RecordedValue>& values, const std::vector<ValueProgram>& programs,
                                 const Machine& machine, const VirtualMachines& machines,

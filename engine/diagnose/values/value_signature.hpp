@@ -14,9 +14,6 @@ namespace abbe::diagnose {
 Explanations value_explanations(const std::vector<RecordedValue>&, const std::vector<ValueProgram>&, const Machine&,
                                 const VirtualMachines& machines, const DiagnoseOptions&);
 
-/// An effect of one setting, as a machine file says it.
-EffectSetting setting_at(const Effect&, const std::vector<double>& theta);
-
 /// The shape of the pattern that one characteristic strays by itself, in all its repeats alike.
 inline constexpr const char* kOneCharacteristic = "one characteristic";
 
