@@ -216,10 +216,8 @@ Baseline baseline_of(const RecordedTouches& t, const Machine& machine, const Bas
     // what that left open may be wrong by some tens of per cent, not by a multiple: that is another machine
     m.largest_scale = 2;
     const RoughGeometry rough = rough_geometry_left(t, machine);
-    m.rough.resize(n, geometry.cols() + rough.um.cols());
-    m.rough << geometry, rough.um;
-    out.rough_factor.resize(known.factor.rows(), m.rough.cols());
-    out.rough_factor << known.factor, rough.harmonics;
+    m.rough = side_by_side(geometry, rough.um);
+    out.rough_factor = side_by_side(known.factor, rough.harmonics);
     m.uneven = uneven_functions_left(t, machine);
   }
   m.y.resize(n);

@@ -1,6 +1,7 @@
 #include "engine/diagnose/baseline/calibrated_part.hpp"
 
 #include <set>
+#include <utility>
 
 namespace abbe::diagnose {
 
@@ -33,12 +34,9 @@ void calibrate(const RecordedPart& part, const RecordedTouches& t, Baseline& bas
     if (k < kPlacement * static_cast<Eigen::Index>(setups.size()) || !of_calibrated_surface(m.free.col(k), part, t))
       kept.push_back(k);
   m.free = Matrix(m.free(Eigen::all, kept));
-  for (const std::vector<double>& doubt : part.doubt_mm) {
-    m.random.conservativeResize(Eigen::NoChange, m.random.cols() + 1);
-    m.random.col(m.random.cols() - 1) =
-        kUmPerMm * Eigen::Map<const Vector>(doubt.data(), static_cast<Eigen::Index>(doubt.size()));
-    m.random_group.push_back(1);
-  }
+  for (const std::vector<double>& doubt : part.doubt_mm)
+    m = with_random(std::move(m),
+                    kUmPerMm * Eigen::Map<const Vector>(doubt.data(), static_cast<Eigen::Index>(doubt.size())));
 }
 
 }  // namespace abbe::diagnose

@@ -1,7 +1,9 @@
 #include "engine/diagnose/baseline/machine_effects.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "engine/effects/noise/noise.hpp"
 
@@ -10,10 +12,7 @@ namespace abbe::diagnose {
 namespace {
 
 void append(LinearModel& m, const Vector& column) {
-  if (column.squaredNorm() == 0) return;
-  m.random.conservativeResize(Eigen::NoChange, m.random.cols() + 1);
-  m.random.rightCols(1) = column;
-  m.random_group.push_back(1);
+  if (column.squaredNorm() > 0) m = with_random(std::move(m), column);
 }
 
 }  // namespace

@@ -159,13 +159,8 @@ std::vector<Matrix> error_functions(const RecordedTouches& t, const Machine& mac
   return out;
 }
 
-Matrix side_by_side(const std::vector<Matrix>& functions) {
-  Eigen::Index columns = 0;
-  for (const Matrix& m : functions) columns += m.cols();
-  Matrix out(functions.front().rows(), columns);
-  Eigen::Index first = 0;
-  for (const Matrix& m : functions) out.middleCols(first, m.cols()) = m, first += m.cols();
-  return out;
+Matrix together(const std::vector<Matrix>& functions) {
+  return side_by_side(functions.front().rows(), pointers_to(functions));
 }
 
 /// Of each axis, what a wavy rail makes of the two straightnesses, and of the two angles across them, each time without the
@@ -177,8 +172,8 @@ std::vector<Matrix> wavy_rails(const RecordedTouches& t, const Machine& machine)
   std::vector<Matrix> out;
   for (int axis = 0; axis < 3; ++axis) {
     const int first = kOfAxis * axis, one = (axis + 1) % 3, other = (axis + 2) % 3;
-    out.push_back(compressed(side_by_side({shifted[first + one], shifted[first + other]})));
-    out.push_back(compressed(side_by_side({tilted[first + kTilts + one], tilted[first + kTilts + other]})));
+    out.push_back(compressed(side_by_side(shifted[first + one], shifted[first + other])));
+    out.push_back(compressed(side_by_side(tilted[first + kTilts + one], tilted[first + kTilts + other])));
   }
   return out;
 }
@@ -188,11 +183,7 @@ std::vector<Matrix> wavy_rails(const RecordedTouches& t, const Machine& machine)
 std::vector<Matrix> left_open(const RecordedTouches& t, const Machine& machine, std::span<const double> lengths) {
   std::vector<Matrix> out = error_functions(t, machine, Functions(lengths, 0));
   const std::vector<Matrix> beyond = error_functions(t, machine, BeyondHarmonics(machine, lengths));
-  for (std::size_t c = 0; c < out.size(); ++c) {
-    Matrix both(out[c].rows(), out[c].cols() + beyond[c].cols());
-    both << kNotFollowed * out[c], beyond[c];
-    out[c] = std::move(both);
-  }
+  for (std::size_t c = 0; c < out.size(); ++c) out[c] = side_by_side(kNotFollowed * out[c], beyond[c]);
   return out;
 }
 
@@ -212,7 +203,7 @@ std::vector<Matrix> functions_and_guides(const std::vector<Matrix>& functions) {
     std::vector<Matrix> guide;
     for (int c = 0; c < kComponents; ++c)
       if (axis_of(static_cast<Component>(c)) == static_cast<Axis>(axis)) guide.push_back(out[c]);
-    out.push_back(compressed(side_by_side(guide)));
+    out.push_back(compressed(together(guide)));
   }
   return out;
 }
@@ -234,7 +225,7 @@ Matrix normal_draws(std::uint64_t seed, std::uint32_t machine, Eigen::Index func
 RoughGeometry rough_geometry(const RecordedTouches& t, const Machine& machine) {
   constexpr double kLine = 2;
   const Functions functions(kLengths, kLine);
-  return {side_by_side(error_functions(t, machine, functions)),
+  return {together(error_functions(t, machine, functions)),
           as_harmonics(machine, nearest_harmonics(machine, functions))};
 }
 
@@ -270,9 +261,10 @@ std::vector<Matrix> uneven_functions(const RecordedTouches& t, const Machine& ma
 
 RoughGeometry rough_geometry_left(const RecordedTouches& t, const Machine& machine) {
   const Functions functions(kLengths, 0);
-  Matrix nearest(basis_size(machine.harmonics), functions.count() + kFineKnots);  // of the columns of left_open
-  nearest << kNotFollowed * nearest_harmonics(machine, functions), Matrix::Zero(nearest.rows(), kFineKnots);
-  return {side_by_side(left_open(t, machine, kLengths)), as_harmonics(machine, nearest)};
+  const Matrix nearest =
+      side_by_side(kNotFollowed * nearest_harmonics(machine, functions),  // of the columns of left_open
+                   Matrix::Zero(basis_size(machine.harmonics), kFineKnots));
+  return {together(left_open(t, machine, kLengths)), as_harmonics(machine, nearest)};
 }
 
 std::vector<Matrix> uneven_functions_left(const RecordedTouches& t, const Machine& machine) {

@@ -109,11 +109,6 @@ HeldOut held_out(const Case& c, const Scheme& scheme, int explanation, const Lin
   return out;
 }
 
-void append(Matrix& columns, const Matrix& more) {
-  columns.conservativeResize(Eigen::NoChange, columns.cols() + more.cols());
-  columns.rightCols(more.cols()) = more;
-}
-
 /// What columns, each with a coefficient of standard deviation 1, are expected to do to all rows, given those
 /// outside of a group.
 Vector expected(const LinearModel& m, const Hyperparameters& h, const Scheme& scheme, int group,
@@ -188,7 +183,7 @@ GroupGains gains_of(const Case& c, const Scheme& scheme, const std::vector<Told>
     const HeldOut h = held_out(c, scheme, t.explanation, with_free(c.model, found), beside);
     for (std::size_t g = 0; g < baseline.size(); ++g) {
       out.gain[g] += h.gain[g] + (found.empty() ? h.null[g] - baseline[g] : 0);
-      append(out.columns[g], h.columns[g]);
+      out.columns[g] = side_by_side(out.columns[g], h.columns[g]);
     }
     found.push_back(&c.explanations.variants[t.variant].signature);
   }

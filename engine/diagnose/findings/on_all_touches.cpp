@@ -21,10 +21,8 @@ std::vector<Matrix> on_all_touches(const Case& c, const std::vector<Finding>& fi
 
 std::optional<LengthError> beyond_beside_names(const Case& c, const SearchResult& result) {
   const std::vector<Matrix> found = on_all_touches(c, result.findings);
-  std::vector<const Matrix*> each;
-  for (const Matrix& m : found) each.push_back(&m);
   LinearModel left = c.baseline.model;
-  const Matrix named = side_by_side(left.y.size(), each);
+  const Matrix named = side_by_side(left.y.size(), pointers_to(found));
   const Precision precision(likelier_ensemble(c, c.model), result.hyper_of_likelier);
   const Precision::Seen seen = precision.seen(named(c.rows, Eigen::all));
   left.y -= named * Cholesky(inner(seen, seen), 1 / (kWidest * kWidest)).solve(inner(seen, precision.y()));

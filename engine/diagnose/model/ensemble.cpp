@@ -67,10 +67,8 @@ Ensemble::Ensemble(const LinearModel& model, const Hyperparameters& h, double lo
 }
 
 void Ensemble::prepare(const std::vector<Matrix>& uneven) {
-  std::vector<const Matrix*> list;
-  for (const Matrix& function : uneven) list.push_back(&function);
   functions_ = uneven.size();
-  prepare(list, {});
+  prepare(pointers_to(uneven), {});
 }
 
 void Ensemble::add(std::span<const Variant> variants) {

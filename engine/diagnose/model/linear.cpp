@@ -10,8 +10,7 @@ namespace {
 LinearModel with_ensemble(const LinearModel& m, const Matrix& ensemble) {
   const std::vector<Eigen::Index> others = columns_of_group(m, false);
   LinearModel out = m;
-  out.random.resize(m.random.rows(), ensemble.cols() + static_cast<Eigen::Index>(others.size()));
-  out.random << ensemble, m.random(Eigen::all, others);
+  out.random = side_by_side(ensemble, m.random(Eigen::all, others));
   out.random_group.assign(static_cast<std::size_t>(ensemble.cols()), 0);
   for (const Eigen::Index k : others) out.random_group.push_back(m.random_group[k]);
   return out;
@@ -41,6 +40,18 @@ Matrix side_by_side(Eigen::Index rows, std::span<const Matrix* const> list) {
     out.middleCols(columns, m->cols()) = *m;
     columns += m->cols();
   }
+  return out;
+}
+
+Matrix side_by_side(const Matrix& a, const Matrix& b) {
+  Matrix out(a.rows(), a.cols() + b.cols());
+  out << a, b;
+  return out;
+}
+
+std::vector<const Matrix*> pointers_to(const std::vector<Matrix>& list) {
+  std::vector<const Matrix*> out;
+  for (const Matrix& m : list) out.push_back(&m);
   return out;
 }
 
@@ -76,12 +87,10 @@ LinearModel compact(const LinearModel& m) {
 
 LinearModel rougher(const LinearModel& m) { return with_ensemble(m, m.rough); }
 
-LinearModel with_random(const LinearModel& m, const Matrix& columns) {
-  LinearModel out = m;
-  out.random.resize(m.random.rows(), m.random.cols() + columns.cols());
-  out.random << m.random, columns;
-  out.random_group.insert(out.random_group.end(), static_cast<std::size_t>(columns.cols()), 1);
-  return out;
+LinearModel with_random(LinearModel m, const Matrix& columns) {
+  m.random = side_by_side(m.random, columns);
+  m.random_group.resize(static_cast<std::size_t>(m.random.cols()), 1);
+  return m;
 }
 
 Matrix indicator(const std::vector<int>& group) {

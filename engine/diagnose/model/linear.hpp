@@ -60,10 +60,12 @@ LinearModel compact(const LinearModel&);
 LinearModel rougher(const LinearModel&);
 
 /// The model with these columns, um per standard deviation, beside its ensemble, at the size that they have.
-LinearModel with_random(const LinearModel&, const Matrix& columns);
+LinearModel with_random(LinearModel, const Matrix& columns);
 
 /// The columns of all of them, which have so many rows, one after the other.
 Matrix side_by_side(Eigen::Index rows, std::span<const Matrix* const>);
+Matrix side_by_side(const Matrix&, const Matrix&);
+std::vector<const Matrix*> pointers_to(const std::vector<Matrix>&);
 
 /// Columns that are worked on at once: a basis is read from memory once for all of them.
 inline constexpr Eigen::Index kPortion = 512;

@@ -23,9 +23,8 @@ class Likelihood {
     const Matrix x = independent(m.free);
     free_ = x.cols();
     q_ = free_ + m.random.cols();
-    Matrix w(m.y.size(), q_);
-    w << x, m.random;
-    const Matrix rows = whitened(w, unit, phi, m.follows), y = whitened(m.y, unit, phi, m.follows);
+    const Matrix rows = whitened(side_by_side(x, m.random), unit, phi, m.follows),
+                 y = whitened(m.y, unit, phi, m.follows);
     for (int g = 0; g < m.noise_groups; ++g) {
       std::vector<Eigen::Index> in;
       for (Eigen::Index i = 0; i < rows.rows(); ++i)

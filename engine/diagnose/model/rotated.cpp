@@ -46,9 +46,8 @@ Vector Rotated::noise_part() const {
 }
 
 Matrix Rotated::taken_of_touches() const {
-  Matrix taken(rows(), project_.free().cols() + rank());
-  taken << project_.free(), basis_ * (lambda_.array() / (1 + lambda_.array())).sqrt().matrix().asDiagonal();
-  return project_.of_touches(taken);
+  const Vector share = (lambda_.array() / (1 + lambda_.array())).sqrt();
+  return project_.of_touches(side_by_side(project_.free(), basis_ * share.asDiagonal()));
 }
 
 Vector Rotated::precision_diagonal() const {

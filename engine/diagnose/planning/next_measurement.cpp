@@ -90,9 +90,8 @@ std::vector<Contender> contenders_of(const Case& c, const Hyperparameters& fitte
     if (std::binary_search(c.rows.begin(), c.rows.end(), rows[k])) of_first.push_back(static_cast<Eigen::Index>(k));
   const Baseline baseline = baseline_of(c, longer);
   const std::vector<Matrix> beside = signatures_beside(c, question, longer, rows);
-  std::vector<const Matrix*> removed;
-  for (const Matrix& m : beside) removed.push_back(&m);
-  const Precision both(with_free(likelier_ensemble(c, without_rows(baseline.model, masked)), removed), fitted);
+  const Precision both(with_free(likelier_ensemble(c, without_rows(baseline.model, masked)), pointers_to(beside)),
+                       fitted);
   std::vector<Contender> out;
   for (const int rival : question.rivals) {
     const Explanations own = named_explanations(longer.touches, rows, {c.explanations.list[rival].name});

@@ -140,11 +140,10 @@ std::optional<Matrix> ValueEstimator::slopes_at(const Effect& effect, const Vari
 std::optional<OnAll> ValueEstimator::on_all(const Effect& effect, const Variant& variant, const Vector& sizes) const {
   const ValueCase& c = case_;
   const Eigen::Index n = c.ensemble.simulated.cols();
-  Matrix side_by_side(all_.size(), 2 * n);
-  side_by_side << c.ensemble.simulated.topRows(all_.size()),
-      simulated_values(c.ensemble.values, *c.programs, with_effect(*c.machine, effect, variant, sizes), all_,
-                       *c.options);
-  const Matrix reached = complete(side_by_side);
+  const Machine planted = with_effect(*c.machine, effect, variant, sizes);
+  const Matrix reached =
+      complete(side_by_side(c.ensemble.simulated.topRows(all_.size()),
+                            simulated_values(c.ensemble.values, *c.programs, planted, all_, *c.options)));
   if (hardly_any(reached, all_)) return std::nullopt;
   const Matrix with = reached.rightCols(n);
   return OnAll{(with - reached.leftCols(n)).colwise().mean(), covariance_of(with, c)};

@@ -164,10 +164,4 @@ Matrix products(const Matrix& a, const Matrix& b) {
   return out;
 }
 
-Matrix side_by_side(const Matrix& a, const Matrix& b) {
-  Matrix out(a.rows(), a.cols() + b.cols());
-  out << a, b;
-  return out;
-}
-
 }  // namespace abbe::diagnose::patterns

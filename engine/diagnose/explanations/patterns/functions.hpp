@@ -55,6 +55,5 @@ std::vector<Matrix> along_all_or_one(const Matrix& field, const Directions&);
 Matrix lobes(const Directions&, int axis, int count);
 /// Every column of one times every column of the other.
 Matrix products(const Matrix&, const Matrix&);
-Matrix side_by_side(const Matrix&, const Matrix&);
 
 }  // namespace abbe::diagnose::patterns

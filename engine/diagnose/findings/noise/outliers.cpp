@@ -32,9 +32,7 @@ double expected_outliers(const Case& c) {
 Vector beyond_found(const Case& c, const SearchResult& result) {
   const std::vector<Matrix> found = on_all_touches(c, result.findings);
   if (found.empty()) return c.off_um;
-  std::vector<const Matrix*> signatures;
-  for (const Matrix& m : found) signatures.push_back(&m);
-  return beyond_prediction(with_free(compact(c.baseline.model), signatures), result.hyper, c.masked);
+  return beyond_prediction(with_free(compact(c.baseline.model), pointers_to(found)), result.hyper, c.masked);
 }
 
 /// More touches beyond the limit of gross outliers than normal noise and the machine file put there, and far beyond it.
