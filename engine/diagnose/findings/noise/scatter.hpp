@@ -11,8 +11,10 @@
 
 namespace abbe::diagnose {
 
-/// The looks at the scatter: eight kinds of groups, three axes, all touches, outliers.
-inline constexpr int kLooks = 13;
+/// The kinds of groups of touches (touch_groups.cpp).
+inline constexpr int kGroupKinds = 8;
+/// The looks at the scatter: at each kind of group, along three axes, at all touches, at outliers.
+inline constexpr int kLooks = kGroupKinds + 3 + 1 + 1;
 /// Together they may not cost more false alarms than a tenth of what the search allows itself.
 inline constexpr double kNoiseAlarm = kAlarm / 10 / kLooks;
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 
 #include "engine/effects/noise/noise.hpp"
@@ -31,22 +32,30 @@ Vector by_touch(const Case& c, Of of) {
   return out;
 }
 
-/// What has values above the middle of those that it has.
-Groups above_the_middle(const Case& c) {
-  const Vector length = by_touch(c, [](const TouchScene&s) { return s.stylus.length_mm; }),
-               speed = by_touch(c, [](const TouchScene&s) { return s.speed_mm_s; });
-  const double long_mm = (length.minCoeff() + length.maxCoeff()) / 2 + 1,
-               fast_mm_s = (speed.minCoeff() + speed.maxCoeff()) / 2 + 1e-6;
-  const auto group = [](const char* kind, Factor factor, Vector in, std::vector<DiagnosedParameter> which) {
-    return TouchGroup{
-        kind, fmt::format("touches with {}", kind), {"group", kind}, factor, std::move(in), std::move(which)};
-  };
-  return {group("long styli", Factor::sensor, (length.array() > long_mm).cast<double>(),
-                {limit("longer_than_mm", "mm", long_mm)}),
-          group("tilted head", Factor::head,
-                by_touch(c, [](const TouchScene& s) { return std::abs(s.stylus.head_a_rad) > kUpright_rad; }), {}),
-          group("fast probing", Factor::speed, (speed.array() > fast_mm_s).cast<double>(),
-                {limit("faster_than_mm_s", "mm/s", fast_mm_s)})};
+TouchGroup touches_with(const char* kind, Factor factor, Vector in, std::vector<DiagnosedParameter> which) {
+  return {kind, fmt::format("touches with {}", kind), {"group", kind}, factor, std::move(in), std::move(which)};
+}
+
+double middle_of(const Vector& v) { return (v.minCoeff() + v.maxCoeff()) / 2; }
+
+Groups long_styli(const Case& c) {
+  const Vector length = by_touch(c, [](const TouchScene& s) { return s.stylus.length_mm; });
+  const double long_mm = middle_of(length) + 1;
+  return {touches_with("long styli", Factor::sensor, (length.array() > long_mm).cast<double>(),
+                       {limit("longer_than_mm", "mm", long_mm)})};
+}
+
+Groups tilted_head(const Case& c) {
+  return {touches_with("tilted head", Factor::head,
+                       by_touch(c, [](const TouchScene& s) { return std::abs(s.stylus.head_a_rad) > kUpright_rad; }),
+                       {})};
+}
+
+Groups fast_probing(const Case& c) {
+  const Vector speed = by_touch(c, [](const TouchScene& s) { return s.speed_mm_s; });
+  const double fast_mm_s = middle_of(speed) + 1e-6;
+  return {touches_with("fast probing", Factor::speed, (speed.array() > fast_mm_s).cast<double>(),
+                       {limit("faster_than_mm_s", "mm/s", fast_mm_s)})};
 }
 
 Groups orientations(const Case& c) {
@@ -182,18 +191,20 @@ Vector among_rows(const Case& c, const Vector& by_touch) {
 }
 
 std::vector<TouchGroup> touch_groups(const Case& c) {
+  constexpr Groups (*kKinds[])(const Case&) = {long_styli, tilted_head, fast_probing, orientations,
+                                               features,   setups,      runs,         stretches};
+  static_assert(std::size(kKinds) == kGroupKinds);
   Groups out;
   const auto known = [&](const TouchGroup& g) {
     return !parts(g.in) ||
         std::any_of(out.begin(), out.end(), [&](const TouchGroup& other) { return other.in == g.in; });
   };
-  const auto add = [&](Groups of_a_kind) {
-    of_a_kind.erase(std::remove_if(of_a_kind.begin(), of_a_kind.end(), known), of_a_kind.end());
+  for (const auto groups_of : kKinds) {
+    Groups of_a_kind = groups_of(c);
+    std::erase_if(of_a_kind, known);
     for (TouchGroup& g : of_a_kind) g.of_its_kind = static_cast<int>(of_a_kind.size());
     std::move(of_a_kind.begin(), of_a_kind.end(), std::back_inserter(out));
-  };
-  for (TouchGroup& g : above_the_middle(c)) add({std::move(g)});
-  for (const auto of_a_kind : {orientations, features, setups, runs, stretches}) add(of_a_kind(c));
+  }
   return out;
 }
 
