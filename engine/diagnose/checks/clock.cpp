@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
 #include <set>
 #include <span>
 #include <utility>
@@ -14,23 +13,31 @@
 namespace abbe::diagnose {
 
 namespace {
+
 constexpr double kHour_s = 3600;
+
+std::vector<RecordingRow*> with_a_time(Recording& recording) {
+  std::vector<RecordingRow*> out;
+  for (RecordingRow& row : recording.rows)
+    if (row.time_s) out.push_back(&row);
+  return out;
 }
+
+bool is_earlier(const RecordingRow* a, const RecordingRow* b) { return *a->time_s < *b->time_s; }
+
+}  // namespace
 
 void continue_past_midnight(Recording& recording, const std::string& file, std::vector<Diagnostic>& messages) {
   constexpr double kDay_s = 24 * kHour_s;
-  std::vector<RecordingRow*> timed;
-  for (RecordingRow& row : recording.rows)
-    if (row.time_s) timed.push_back(&row);
-  const auto earlier = [](const RecordingRow* a, const RecordingRow* b) { return *a->time_s < *b->time_s; };
+  const std::vector<RecordingRow*> timed = with_a_time(recording);
   const auto fall = std::adjacent_find(timed.begin(), timed.end(), [](const RecordingRow* a, const RecordingRow* b) {
     return *b->time_s < *a->time_s - kDay_s / 2;
   });
   if (fall == timed.end()) return;
   const auto morning = fall + 1;
-  const double last = *(*std::max_element(timed.begin(), timed.end(), earlier))->time_s,
-               evening = *(*std::min_element(timed.begin(), morning, earlier))->time_s,
-               end = *(*std::max_element(morning, timed.end(), earlier))->time_s;
+  const double last = *(*std::max_element(timed.begin(), timed.end(), is_earlier))->time_s,
+               evening = *(*std::min_element(timed.begin(), morning, is_earlier))->time_s,
+               end = *(*std::max_element(morning, timed.end(), is_earlier))->time_s;
   if (last > kDay_s || end > evening - kDay_s / 2) return;
   messages.push_back(diagnostic(
       Code::N0727,
@@ -45,9 +52,7 @@ void continue_where_put_back(Recording& recording, const std::string& file, std:
     double by_s;
     const char* where;
   } hands[] = {{kHour_s, "where summer time ends"}, {12 * kHour_s, "on a clock of twelve hours"}};
-  std::vector<RecordingRow*> rows;
-  for (RecordingRow& row : recording.rows)
-    if (row.time_s) rows.push_back(&row);
+  const std::vector<RecordingRow*> rows = with_a_time(recording);
   double longest_s = 0;  // from a touch to the next
   std::vector<std::size_t> falls;
   for (std::size_t i = 1; i < rows.size(); ++i) {
@@ -100,14 +105,13 @@ void continue_from_run_to_run(Recording& recording, const std::string& file, std
 
 void count_from_first_touch(Recording& recording, const std::string& file, std::vector<Diagnostic>& messages) {
   constexpr double kLate_s = kHour_s;  // a program that is so long before its first touch has another clock
-  std::optional<double> first;
-  for (const RecordingRow& row : recording.rows)
-    if (row.time_s) first = std::min(first.value_or(*row.time_s), *row.time_s);
-  if (!first || (*first >= 0 && *first < kLate_s)) return;
-  for (RecordingRow& row : recording.rows)
-    if (row.time_s) *row.time_s -= *first;
+  const std::vector<RecordingRow*> rows = with_a_time(recording);
+  if (rows.empty()) return;
+  const double first_s = *(*std::min_element(rows.begin(), rows.end(), is_earlier))->time_s;
+  if (first_s >= 0 && first_s < kLate_s) return;
+  for (RecordingRow* row : rows) *row->time_s -= first_s;
   messages.push_back(diagnostic(
-      Code::N0721, fmt::format("{}: its clock stands at {:.0f} s at the first touch", file, *first),
+      Code::N0721, fmt::format("{}: its clock stands at {:.0f} s at the first touch", file, first_s),
       "times are counted from that touch; what changes since a start, warm-up or drift, is taken to start there"));
 }
 
