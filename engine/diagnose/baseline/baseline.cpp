@@ -4,7 +4,8 @@
 #include <cmath>
 #include <map>
 #include <numeric>
-#include <set>
+#include <tuple>
+#include <utility>
 
 #include "engine/diagnose/baseline/rough_geometry.hpp"
 #include "engine/diagnose/model/projection.hpp"
@@ -102,14 +103,12 @@ void add_poses(const RecordedTouches& t, Columns& free) {
   }
 }
 
-template <class Key>
-void add_unknown_offsets(const RecordedTouches& t, Key key, Columns& free) {
-  std::map<decltype(key(t.touches[0], 0)), std::vector<int>> groups;
-  for (std::size_t i = 0; i < t.touches.size(); ++i) groups[key(t.touches[i], int(i))].push_back(static_cast<int>(i));
-  for (const auto& [k, rows] : groups) {
-    Vector& offset = free.add();
-    for (const int i : rows) offset(i) = 1;
-  }
+/// By touch: the surface that has a place of its own where nobody knows it.
+std::vector<int> unknown_surfaces(const RecordedTouches& t, Surfaces surfaces) {
+  if (surfaces == Surfaces::unknown) return surface_points(t);
+  std::vector<int> features;
+  for (const RecordedTouch& touch : t.touches) features.push_back(touch.scene.feature);
+  return features;
 }
 
 /// Errors of the head by indexing visit, and of the qualified tip by stylus and orientation.
@@ -184,14 +183,7 @@ Baseline baseline_of(const RecordedTouches& t, const Machine& machine, const Bas
   LinearModel& m = out.model;
   Columns free(n), random(n);
   add_poses(t, free);
-  if (options.surfaces == Surfaces::unknown_size)
-    add_unknown_offsets(
-        t, [](const RecordedTouch& touch, int) { return touch.scene.feature; }, free);
-  if (options.surfaces == Surfaces::unknown) {
-    const std::vector<int> points = surface_points(t);
-    add_unknown_offsets(
-        t, [&](const RecordedTouch&, int i) { return points[i]; }, free);
-  }
+  if (options.surfaces != Surfaces::calibrated) free.add(indicator(unknown_surfaces(t, options.surfaces)));
   out.geometry_um = perturbed_machines(t, machine);
   const KnownGeometry known = options.known ? *options.known
       : options.sampled                     ? *options.sampled
