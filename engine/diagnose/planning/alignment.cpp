@@ -134,7 +134,7 @@ class Aligner {
   }
 
   void measure(const std::string& label, const DmisFeature& feature, const std::vector<std::size_t>& k) {
-    std::string variant =
+    std::string measuring =
         fmt::format("F({})=FEAT/{}\nMEAS/{},F({}),{}\n", label, feature.definition, feature.kind, label, k.size());
     std::string styli;
     for (const std::size_t i : k) {
@@ -142,12 +142,12 @@ class Aligner {
         stylus_ = tip;
         const std::string select = fmt::format(
             "TEXT/OPER,'drive to a clear place: the stylus is changed or turned to {0}'\nSNSLCT/SA({0})\n", stylus_);
-        (i == k.front() ? styli : variant) += select;
+        (i == k.front() ? styli : measuring) += select;
       }
       const Vec3 p = surface_of(longer_, i), n = scene(i).normal;
-      variant += fmt::format("PTMEAS/CART,{:.6f},{:.6f},{:.6f},{:.9f},{:.9f},{:.9f}\n", p.x, p.y, p.z, n.x, n.y, n.z);
+      measuring += fmt::format("PTMEAS/CART,{:.6f},{:.6f},{:.6f},{:.9f},{:.9f},{:.9f}\n", p.x, p.y, p.z, n.x, n.y, n.z);
     }
-    out_.statements += styli + variant + "ENDMES\n";
+    out_.statements += styli + measuring + "ENDMES\n";
   }
 
   const Longer& longer_;
