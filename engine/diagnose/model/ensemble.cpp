@@ -164,7 +164,7 @@ MarginalLikelihood Ensemble::likelihood(const Matrix& z, const Matrix& rest) con
   return {within.colwise() + beside, log_scale_, shape_};
 }
 
-Ensemble::Verdicts Ensemble::judge(const Sum& y, const std::vector<int>& variants) const {
+Ensemble::LogLikelihoods Ensemble::judge(const Sum& y, const std::vector<int>& variants) const {
   const Eigen::Index recordings = y.of.recordings(), scales = precision_.cols();
   const auto asked = functions_ + variants.size();
   const auto add = [&](const auto& added, auto&& to) {  // a column a recording
@@ -173,7 +173,7 @@ Ensemble::Verdicts Ensemble::judge(const Sum& y, const std::vector<int>& variant
   Matrix z = y.of.z, rest = y.of.rest;
   if (y.added) add(y.added->z, z), add(y.added->rest, rest);
   MarginalLikelihood likelihood = this->likelihood(z, rest);
-  Verdicts out{likelihood.alone(), Matrix(recordings, static_cast<Eigen::Index>(asked))};
+  LogLikelihoods out{likelihood.alone(), Matrix(recordings, static_cast<Eigen::Index>(asked))};
   Matrix sums;
   WithData u;
   for (std::size_t k = 0; k < asked; ++k) {

@@ -65,12 +65,12 @@ class Ensemble {
     const Seen* added = nullptr;
     Vector times = {};
   };
-  /// Log likelihoods, averaged over scales and sizes; the constants that all families share are left out.
-  struct Verdicts {
+  /// Averaged over scales and sizes; the constants that all families share are left out.
+  struct LogLikelihoods {
     Vector alone;  ///< by recording: without any variant
     Matrix with;   ///< a row a recording; a column for each error function, then for each variant that was asked for
   };
-  Verdicts judge(const Sum&, const std::vector<int>& variants) const;
+  LogLikelihoods judge(const Sum&, const std::vector<int>& variants) const;
   /// Of the first recording, by scale: without any variant, with an error function, with a variant.
   ByScale alone(const Seen&) const;
   ByScale with_function(const Seen& y, std::size_t function) const { return with(y, variants_[function]); }

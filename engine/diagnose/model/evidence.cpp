@@ -105,7 +105,7 @@ EvidenceSearch::Weighed EvidenceSearch::weigh(const std::vector<Ensemble::Sum>& 
   Matrix logs(recordings * (1 + asked), families), sums(recordings, 1 + asked);
   for (Eigen::Index e = 0; e < families; ++e) {
     const auto at = static_cast<std::size_t>(e);
-    const Ensemble::Verdicts v = ensembles_[at].judge(y[at], variants);
+    const Ensemble::LogLikelihoods v = ensembles_[at].judge(y[at], variants);
     logs.col(e) << v.alone, v.with.reshaped();
   }
   log_sums_exp(static_cast<int>(families), static_cast<int>(logs.rows()), logs.data(), sums.data());
