@@ -55,10 +55,7 @@ OtherMethods other_methods(const Case& c, const Evidence& evidence) {
   Hyperparameters stated;
   stated.noise = Vector::Ones(c.baseline.model.noise_groups);
   const Rotated rotated(c.baseline.model, stated);
-  const Vector z = rotated.z();
-  const double rest = rotated.remainder(rotated.y(), z).squaredNorm();
-  const double squares = (z.array().square() / (1 + rotated.lambda().array())).sum() + rest;
-  out.chi2_p = chi2_above(squares, rotated.rank() + rotated.rest_dof());
+  out.chi2_p = chi2_above(rotated.squares(), rotated.dof());
   // One best Bayes factor over the catalogue, nothing else allowed.
   std::vector<double> logs;
   std::vector<int> effects;

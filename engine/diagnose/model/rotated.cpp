@@ -27,22 +27,22 @@ std::pair<Matrix, Vector> principal_axes(const Matrix& z) {
   return {axes, lambda};
 }
 
-Rotated::Rotated(const LinearModel& m, const Hyperparameters& h) : project_(m, h), y_(project(m.y)) {
-  std::tie(basis_, lambda_) = principal_axes(project(random_at_scale(m, h)));
-  rest_dof_ = static_cast<int>(y_.size() - project_.free().cols() - rank());
-}
-
-Matrix Rotated::coordinates(const Matrix& projected) const { return basis_.transpose() * projected; }
-
-Matrix Rotated::remainder(const Matrix& projected, const Matrix& coordinates) const {
-  return projected - basis_ * coordinates;
+Rotated::Rotated(const LinearModel& m, const Hyperparameters& h) : project_(m, h), y_(project_(m.y)) {
+  std::tie(basis_, lambda_) = principal_axes(project_(random_at_scale(m, h)));
 }
 
 Vector Rotated::z() const { return basis_.transpose() * y_; }
 
+Matrix Rotated::remainder(const Matrix& coordinates) const { return y_ - basis_ * coordinates; }
+
+double Rotated::squares() const {
+  const Vector coordinates = z();
+  return (coordinates.array().square() / (1 + lambda_.array())).sum() + remainder(coordinates).squaredNorm();
+}
+
 Vector Rotated::noise_part() const {
   const Vector taken = lambda_.array() / (1 + lambda_.array());
-  return remainder(y_, Vector(taken.array() * z().array()));
+  return remainder(Vector(taken.array() * z().array()));
 }
 
 Matrix Rotated::taken_of_touches() const {

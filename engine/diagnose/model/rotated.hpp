@@ -19,18 +19,9 @@ class Rotated {
  public:
   Rotated(const LinearModel&, const Hyperparameters&);
 
-  int rows() const { return static_cast<int>(y_.size()); }
-  int rank() const { return static_cast<int>(lambda_.size()); }
-  int rest_dof() const { return rest_dof_; }
-  const Vector& lambda() const { return lambda_; }
-  /// Columns of the recording's rows, whitened and free of X.
-  Matrix project(const Matrix& columns) const { return project_(columns); }
-  /// U' of projected columns.
-  Matrix coordinates(const Matrix& projected) const;
-  /// What of projected columns the ensemble cannot do.
-  Matrix remainder(const Matrix& projected, const Matrix& coordinates) const;
-  const Vector& y() const { return y_; }  ///< projected
-  Vector z() const;
+  /// The squares of the recording in units in which it is uncorrelated, each of variance 1, and how many there are.
+  double squares() const;
+  int dof() const { return static_cast<int>(y_.size() - project_.free().cols()); }
   /// What of the projected rows is noise, as far as they tell.
   Vector noise_part() const;
   /// Row vectors of the touches: Projection::of_touches, and um.
@@ -42,12 +33,15 @@ class Rotated {
   Matrix precision() const;
 
  private:
+  Vector z() const;
+  /// What of the projected rows is beside these coordinates of the ensemble, one column.
+  Matrix remainder(const Matrix& coordinates) const;
   Matrix taken_of_touches() const;  ///< T: that inverse covariance is the noise's minus T T'
 
   Projection project_;
+  Vector y_;      ///< projected
   Matrix basis_;  ///< U
-  Vector lambda_, y_;
-  int rest_dof_ = 0;
+  Vector lambda_;
 };
 
 }  // namespace abbe::diagnose
