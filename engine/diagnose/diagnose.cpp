@@ -163,7 +163,7 @@ Diagnosis without_styli(Diagnosis found, std::vector<Diagnostic> of_the_file) {
   for (const Effect* effect : effects()) {
     const auto same = [&](const CannotJudge& c) { return c.effect == effect->name; };
     const auto known = std::find_if(found.cannot_judge.begin(), found.cannot_judge.end(), same);
-    CannotJudge missing = known == found.cannot_judge.end() ? CannotJudge{std::string(effect->name), {}, {}} : *known;
+    CannotJudge missing = known == found.cannot_judge.end() ? CannotJudge{std::string(effect->name)} : *known;
     for (const char* column : {"head_A_deg", "head_B_deg", "sensor"})
       if (std::find(missing.missing.begin(), missing.missing.end(), column) == missing.missing.end())
         missing.missing.emplace_back(column);

@@ -25,7 +25,7 @@ enum class Verdict { no_mismatch, named, one_of, unexplained, cannot_judge };
 std::string_view name(Verdict);  ///< as in the JSON: "no_mismatch"
 
 struct DiagnosedParameter {
-  std::string name, unit;
+  std::string name, unit = {};
   double value = 0, u = 0;
   double low = 0, high = 0;  ///< 95 % interval
   std::string word = {};     ///< of a choice: "x"; then the numbers mean nothing
@@ -114,20 +114,20 @@ struct CannotJudge {
   std::string effect;
   /// columns that were not logged or do not differ enough; empty: the effect does nothing to these touches, or what is
   /// unknown of the part hides it
-  std::vector<std::string> missing;
-  std::vector<std::string> constant;      ///< of these, those that are the same throughout
-  std::vector<std::string> too_few = {};  ///< and those that differ, but too seldom
-  std::string too_few_of = {};            ///< what there is too little of then: "fewer than three indexings"
+  std::vector<std::string> missing = {};
+  std::vector<std::string> constant = {};  ///< of these, those that are the same throughout
+  std::vector<std::string> too_few = {};   ///< and those that differ, but too seldom
+  std::string too_few_of = {};             ///< what there is too little of then: "fewer than three indexings"
 };
 
 /// The smallest size of an effect that this recording can detect, and the smallest that it can name.
 struct Detectable {
   std::string effect, parameter, unit;
   double detect = 0;
-  std::optional<double> name;  ///< nothing: it cannot be told from `confounded_with` at any size
-  double detect_um = 0;        ///< the same as the largest displacement that it makes at one of the touches
-  std::optional<double> name_um;
-  std::vector<std::string> confounded_with;
+  std::optional<double> name = {};  ///< nothing: it cannot be told from `confounded_with` at any size
+  double detect_um = 0;             ///< the same as the largest displacement that it makes at one of the touches
+  std::optional<double> name_um = {};
+  std::vector<std::string> confounded_with = {};
   /// what is there in all runs does not show: these are the sizes of what is new in one of them
   bool only_new = false;
   bool scatter = false;  ///< of the noise: detect_um and name_um are standard deviations, of outliers their size

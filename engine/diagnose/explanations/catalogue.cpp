@@ -482,7 +482,7 @@ std::vector<CannotJudge> cannot_judge(const Explanations& all) {
 
 void add_hidden(const Explanations& all, Diagnosis& out) {
   for (const Explanation& e : all.list)
-    if (e.effect && !tells_of(out, e.name)) out.cannot_judge.push_back({e.name, {}, {}});
+    if (e.effect && !tells_of(out, e.name)) out.cannot_judge.push_back({e.name});
 }
 
 }  // namespace abbe::diagnose

@@ -224,7 +224,6 @@ class Estimator {
       if (parameter.sought == Sought::moment) out.back().called = run_at(value);
     } else if (!parameter.choices.empty())
       out.push_back({.name = std::string(parameter.name),
-                     .unit = "",
                      .word = std::string(parameter.choices[static_cast<std::size_t>(value - parameter.low + 0.5)])});
     else if (!standard ||
              (grids_[p].tried.size() > 1 && value != 0)) {  // 0 names no stylus, no tip, no place in particular
@@ -289,7 +288,7 @@ class Estimator {
     const auto parameters = explanation_.effect->parameters;
     const Candidate& likeliest = variants_[likeliest_];
     if (const int axis = likeliest.variant.axis; axis >= 0) {
-      out.push_back({.name = "direction", .unit = "", .word = std::string(parameters[p].choices[axis])});
+      out.push_back({.name = "direction", .word = std::string(parameters[p].choices[axis])});
       return;
     }
     auto d = likeliest.estimate->direction();
@@ -300,7 +299,7 @@ class Estimator {
     std::size_t axis = 3;
     for (std::size_t k = 0; k < 3; ++k)
       if (std::acos(std::min(1.0, components[k])) <= kClearly * d->u) axis = k;
-    out.push_back({.name = "direction", .unit = "", .word = std::string(parameters[p].choices[axis])});
+    out.push_back({.name = "direction", .word = std::string(parameters[p].choices[axis])});
     if (!d->whole) out.back().called = "as far as these touches see";
     if (axis < 3) return;
     const double flat = std::hypot(d->x, d->y);

@@ -28,21 +28,16 @@ void add_motion(const Case& c, std::vector<Change>& list) {
                  other = speed > 5 ? speed / 3 : 3 * speed;
     if (other > 0)
       list.push_back({.text = fmt::format("repeat with probing speed {:.3g} mm/s", other),
-                      .instruction = "",
                       .apply = [=](RecordingRow& row, Machine&) { row.speed_mm_s = other; }});
   }
   if (logged(c, Covariate::acceleration)) {
     const double other = median_of(c, [](const TouchScene& s) { return s.acceleration_mm_s2; }) / 3;
     if (other > 0)
       list.push_back({.text = fmt::format("repeat with acceleration {:.3g} mm/s2", other),
-                      .instruction = "",
                       .apply = [=](RecordingRow& row, Machine&) { row.accel_mm_s2 = other; }});
   }
-  list.push_back({.text = "repeat the whole sequence once more", .instruction = "", .changes_touches = false});
-  list.push_back({.text = "repeat the whole sequence in reverse order",
-                  .instruction = "",
-                  .reversed = true,
-                  .changes_touches = false});
+  list.push_back({.text = "repeat the whole sequence once more", .changes_touches = false});
+  list.push_back({.text = "repeat the whole sequence in reverse order", .reversed = true, .changes_touches = false});
 }
 
 /// A stylus system like that of the row but for `alter`, under a name of its own.

@@ -13,9 +13,9 @@ namespace abbe::diagnose {
 
 /// One change to how touches are made.
 struct Change {
-  std::string text;         ///< "repeat with probing speed 3 mm/s"
-  std::string instruction;  ///< for the operator, or empty when the program does it all
-  double minutes = 0;       ///< beyond the measuring itself
+  std::string text;              ///< "repeat with probing speed 3 mm/s"
+  std::string instruction = {};  ///< for the operator, or empty when the program does it all
+  double minutes = 0;            ///< beyond the measuring itself
   /// What becomes of a row; a stylus that is new joins the sensors of the machine.
   std::function<void(RecordingRow&, Machine&)> apply = [](RecordingRow&, Machine&) {};
   std::optional<Rigid> move{};  ///< of the part, in the coordinates of the recording

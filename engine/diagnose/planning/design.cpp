@@ -90,9 +90,6 @@ class Design {
     Detectable d{.effect = e.name,
                  .parameter = std::string(parameter.name),
                  .unit = std::string(parameter.unit),
-                 .name = {},
-                 .name_um = {},
-                 .confounded_with = {},
                  .only_new = only_new};
     Form told = median_form(forms, [](const Form& f) { return f.um_per_snr * f.named; });
     const bool is_named = std::isfinite(told.named);

@@ -134,12 +134,7 @@ std::vector<Detectable> smallest_detectable(const ValueCase& c, std::vector<doub
     const Column& column = variant.columns[of.column];
     const EffectParameter& p = e.effect->parameters[column.parameter];
     const double largest = variant.signature(of_figures(c.ensemble.values), of.column).cwiseAbs().maxCoeff();
-    Detectable d{.effect = e.name,
-                 .parameter = std::string(p.name),
-                 .unit = std::string(p.unit),
-                 .name = {},
-                 .name_um = {},
-                 .confounded_with = {}};
+    Detectable d{.effect = e.name, .parameter = std::string(p.name), .unit = std::string(p.unit)};
     d.detect = column.unit * *size, d.detect_um = largest * *size;
     tell_apart(s, k, of, *size, largest, d);
     out.push_back(std::move(d));

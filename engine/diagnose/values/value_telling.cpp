@@ -35,7 +35,7 @@ std::vector<DiagnosedParameter> parameters_of(const ValueCase& c, const Closer& 
   for (std::size_t p = 0; p < effect.parameters.size(); ++p) {
     const EffectParameter& parameter = effect.parameters[p];
     if (parameter.choices.empty()) continue;
-    DiagnosedParameter choice{.name = std::string(parameter.name), .unit = ""};
+    DiagnosedParameter choice{.name = std::string(parameter.name)};
     choice.word = parameter.choices[std::lround(b.theta[p] - parameter.low)];
     out.push_back(std::move(choice));
   }

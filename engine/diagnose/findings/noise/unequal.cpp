@@ -23,7 +23,7 @@ std::optional<NoiseFinding> judge_unequal(Scatter& scatter) {
   NoiseFinding f{&kUnequalNoise, noisy->p, {figure("ratio", "1", noisy->ratio, noisy->u)}, {}};
   const double others = std::sqrt((r.standardised.array().square() / (1 + excess * in.array())).mean()) * r.noise_um;
   f.parameters.push_back(figure("sd_um", "um", others, others / std::sqrt(2 * (double(in.size()) - in.sum()))));
-  f.parameters.push_back({.name = "group", .unit = "", .word = group.kind});
+  f.parameters.push_back({.name = "group", .word = group.kind});
   f.parameters.insert(f.parameters.end(), group.which.begin(), group.which.end());
   ask_repeats(scatter, in, excess / (1 + excess), f);
   f.factor = group.factor, f.where = {group.where};
@@ -44,7 +44,7 @@ CannotJudge not_parted(const RecordedTouches& t) {
                {Covariate::sensor, "sensor", "with longer styli"},
                {Covariate::speed, "speed_mm_s", "at another speed"},
                {Covariate::time, "time_s", "at another time"}};
-  CannotJudge out{std::string(kUnequalNoise.name), {}, {}};
+  CannotJudge out{std::string(kUnequalNoise.name)};
   std::vector<std::string> of;
   for (const auto& [covariate, column, kind] : kinds) {
     const auto what = static_cast<unsigned>(covariate);

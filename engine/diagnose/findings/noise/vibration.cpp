@@ -52,7 +52,7 @@ std::optional<NoiseFinding> judge_vibration(Scatter& scatter) {
         r.noise_um * std::sqrt((r.standardised.array().square() / (1 + e.size * along.array())).mean());
     const double sd = probe * std::sqrt(e.size), u = sd * (1 + 1 / e.size) / std::sqrt(2 * along.sum());
     NoiseFinding f{&kVibration, p, {figure("sd_um", "um", sd, u)}, {}};
-    f.parameters.push_back({.name = "direction", .unit = "", .word = std::string(1, "xyz"[axis])});
+    f.parameters.push_back({.name = "direction", .word = std::string(1, "xyz"[axis])});
     ask_repeats(scatter, along, e.size / (1 + e.size), f);
     f.factor = Factor::direction, f.where = {{"normal", std::string("along ") + "xyz"[axis]}};
     f.sentence = fmt::format("Touches along {} scatter by {:.2g} um more than the others{}.", "xyz"[axis], sd,
