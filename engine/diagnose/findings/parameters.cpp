@@ -311,15 +311,10 @@ class Estimator {
 
   std::vector<MixtureTerm> linear(int p) const {
     std::vector<MixtureTerm> mixture;
-    double total = 0;
-    for (const Candidate& v : variants_) {
-      const auto size = v.estimate->size(p);
-      if (!size) continue;
-      total += v.weight;
-      mixture.push_back({v.weight, size->value, size->u, false, size->length});
-    }
-    for (MixtureTerm& c : mixture) c.weight /= total;
-    return mixture;
+    for (const Candidate& v : variants_)
+      if (const auto size = v.estimate->size(p))
+        mixture.push_back({v.weight, size->value, size->u, false, size->length});
+    return normalised(mixture);
   }
 
   /// The phases of a size, counted from `at`: none begins anew at a full turn.
