@@ -246,7 +246,6 @@ bool tells_of(const Diagnosis&, std::string_view effect);
 struct DiagnoseOptions {
   std::uint64_t seed = 1;
   int threads = 1;
-  int replicates = 300;  ///< of the bootstrap
   bool design_only = false;
   bool keep_state = false;               ///< fill known_state
   const Workpiece* workpiece = nullptr;  ///< what is known of the part; none: as the recording says

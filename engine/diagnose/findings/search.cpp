@@ -22,6 +22,8 @@ namespace abbe::diagnose {
 namespace {
 
 constexpr int kRounds = 3;
+/// Simulated recordings of a round.
+constexpr int kReplicates = 300;
 /// What is left after a finding is never quite nothing: the catalogue is simpler than the world. A second
 /// name needs more.
 constexpr double kLaterAlarm = 1e-3;
@@ -82,7 +84,7 @@ Round round(const Case& c, const EvidenceSearch& search, int number) {
   const NoiseLaw law(search.residuals_beside(c.explanations.variants[likeliest]));
   begins(c.options.progress,
          number > 0 ? "simulated recordings without what was found" : "simulated recordings without a mismatch");
-  r.null = search.bootstrap(r.evidence.statistic, law, {c.options.replicates, alarm_of(number)},
+  r.null = search.bootstrap(r.evidence.statistic, law, {kReplicates, alarm_of(number)},
                             seed_of(c.options.seed, static_cast<std::uint64_t>(number)));
   std::vector<double> simulated;
   for (const Evidence& e : r.null) simulated.push_back(e.statistic);
