@@ -16,6 +16,12 @@ namespace abbe::diagnose {
 
 namespace {
 
+/// Standard deviation of a qualified tip centre, over that of the probe: a sphere of eight touches (3 / 8 of
+/// the variance of one).
+constexpr double kQualificationShare = 0.6;
+/// Machines that the covariance of the coefficients is taken from.
+constexpr int kEnsemble = 800;
+
 /// Sensitivities of the touches to every coefficient: a block of perturbed machines, the k-th with coefficient k of 1.
 Matrix perturbed_machines(const RecordedTouches& t, const Machine& machine) {
   const int size = kComponents * basis_size(machine.harmonics);

@@ -50,12 +50,6 @@ struct Baseline {
 
 Baseline baseline_of(const RecordedTouches&, const Machine&, const BaselineOptions&);
 
-/// Standard deviation of a qualified tip centre, over that of the probe: a sphere of eight touches (3 / 8 of
-/// the variance of one).
-inline constexpr double kQualificationShare = 0.6;
-/// Machines that the covariance of the coefficients is taken from.
-inline constexpr int kEnsemble = 800;
-
 /// Of the two ensembles of a baseline.
 enum class Errors { harmonic, rough };
 /// Mean and covariance of the coefficients given the recording: what a later diagnosis may start from. Of rougher errors
