@@ -181,7 +181,7 @@ std::vector<Location> locate(const Case& c, const EvidenceSearch& search, const 
     const Pattern pattern = pattern_of(search, all.variants[variant], variant);
     const auto best = static_cast<std::size_t>(located.best);
     const Evidence& judged = best < result.on_grid.log_bayes.size() ? result.on_grid : result.first;
-    entries.push_back({{std::string(abbe::diagnose::name(factor)), Strongest(c, pattern.values).in(factor), 0,
+    entries.push_back({{std::string(name(factor)), Strongest(c, pattern.values).in(factor), 0,
                         tail_probability(judged.log_bayes[best], simulated)},
                        log_sum_exp(located.log_belief),
                        pattern.energy});

@@ -141,7 +141,7 @@ void tell_unexplained(const Case& c, const SearchResult& result, Diagnosis& out)
   out.unexplained = describe_unexplained(
       c, result, as_well ? fmt::format("{}", fmt::join(out.runner_up->members, " or ")) : std::string());
   EmpiricalModel model = empirical_model(c, result);
-  if (model.follows) out.unexplained->model_follows = abbe::diagnose::name(*model.follows);
+  if (model.follows) out.unexplained->model_follows = name(*model.follows);
   if (!model.settings.empty()) out.unexplained->model = model.settings.front().name;
   for (EffectSetting& setting : model.settings) out.model_effects.push_back(std::move(setting));
 }
@@ -168,7 +168,7 @@ void tell_noise(const Case& c, std::vector<NoiseFinding> noise, Diagnosis& out) 
   for (NoiseFinding& n : noise) {
     const std::string in_file = n.repeats == Repeats::agree ? "" : carry(*c.machine, *n.effect, n.parameters, out);
     if (n.factor && out.effects.empty() && !out.unexplained)
-      out.location.push_back({std::string(abbe::diagnose::name(*n.factor)), n.where, 1, n.p});
+      out.location.push_back({std::string(name(*n.factor)), n.where, 1, n.p});
     const double probability =
         believed(most_believed(n.p, kPriorScatter), out.unexplained || !n.certain || !all_plausible(n.parameters));
     out.effects.push_back({{std::string(n.effect->name)}, probability, n.parameters, n.sentence});

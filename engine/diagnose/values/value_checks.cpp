@@ -16,11 +16,11 @@ namespace abbe::diagnose {
 
 namespace {
 
-using Repeats = std::vector<std::pair<Eigen::Index, Eigen::Index>>;  ///< rows of one value in two runs
+using RepeatedValues = std::vector<std::pair<Eigen::Index, Eigen::Index>>;  ///< rows of one value in two runs
 
 /// The logarithm of the chance that so many repeats are alike, of the lengths or the angles. They have the steps of the last
 /// digit, or larger ones, as those of scales.
-double log_chance_of(const ValueCase& c, const Repeats& alike, bool angles) {
+double log_chance_of(const ValueCase& c, const RepeatedValues& alike, bool angles) {
   constexpr double kQuieter = 5;  // than the specification says a probe may be, and repeat so much better
   std::vector<double> written;
   for (const auto& [a, b] : alike)
@@ -70,7 +70,7 @@ void refuse_copied_values(const ValueCase& c) {
   }
   for (auto later = runs.begin(); later != runs.end(); ++later)
     for (auto earlier = runs.begin(); earlier != later; ++earlier) {
-      Repeats alike;
+      RepeatedValues alike;
       for (const auto& [value, k] : later->second) {
         const auto other = earlier->second.find(value);
         if (other == earlier->second.end()) continue;
