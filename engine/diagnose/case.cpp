@@ -11,7 +11,6 @@
 #include "engine/diagnose/baseline/known_state.hpp"
 #include "engine/diagnose/baseline/length_errors.hpp"
 #include "engine/diagnose/baseline/machine_effects.hpp"
-#include "engine/diagnose/baseline/standing.hpp"
 #include "engine/diagnose/checks/normals.hpp"
 #include "engine/diagnose/checks/pairing.hpp"
 #include "engine/diagnose/checks/unlogged_styli.hpp"

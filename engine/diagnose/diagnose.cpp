@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <variant>
 
 #include "engine/diagnose/baseline/known_state.hpp"
@@ -20,12 +19,10 @@
 #include "engine/diagnose/checks/scale_readings.hpp"
 #include "engine/diagnose/explanations/catalogue.hpp"
 #include "engine/diagnose/findings/belief.hpp"
-#include "engine/diagnose/findings/caveats.hpp"
 #include "engine/diagnose/findings/improvement.hpp"
 #include "engine/diagnose/findings/locate.hpp"
 #include "engine/diagnose/findings/members.hpp"
 #include "engine/diagnose/findings/noise/judge_noise.hpp"
-#include "engine/diagnose/findings/noise/scatter.hpp"
 #include "engine/diagnose/findings/on_all_touches.hpp"
 #include "engine/diagnose/findings/other_methods.hpp"
 #include "engine/diagnose/findings/tell.hpp"
@@ -36,7 +33,6 @@
 #include "engine/diagnose/planning/noise_design.hpp"
 #include "engine/diagnose/quantile.hpp"
 #include "engine/diagnose/warnings.hpp"
-#include "engine/diagnose/words.hpp"
 #include "engine/machine/screening.hpp"
 
 namespace abbe {

@@ -1,7 +1,6 @@
 #include "engine/diagnose/baseline/machine_effects.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <utility>
 

@@ -4,8 +4,6 @@
 // mismatch with a cause, and so are those that a sudden change puts where they are: they stay in.
 #include "engine/diagnose/baseline/outliers.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>

@@ -2,7 +2,6 @@
 #include "engine/diagnose/explanations/catalogue.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <optional>
 #include <set>

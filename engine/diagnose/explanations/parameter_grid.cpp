@@ -4,8 +4,6 @@
 #include <cmath>
 #include <set>
 
-#include "engine/effects/direction.hpp"
-
 namespace abbe::diagnose {
 
 namespace {

@@ -5,7 +5,6 @@
 #include "engine/diagnose/explanations/refine.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "engine/diagnose/explanations/catalogue.hpp"
 #include "engine/diagnose/explanations/parameter_grid.hpp"

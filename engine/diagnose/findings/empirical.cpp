@@ -1,7 +1,6 @@
 #include "engine/diagnose/findings/empirical.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <map>
 #include <set>

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "engine/base/ids.hpp"
-#include "engine/diagnose/explanations/patterns/functions.hpp"
 #include "engine/diagnose/explanations/patterns/patterns.hpp"
 #include "engine/diagnose/explanations/refine.hpp"
 #include "engine/diagnose/findings/displacements.hpp"

@@ -13,7 +13,6 @@
 #include "engine/diagnose/findings/caveats.hpp"
 #include "engine/diagnose/findings/displacements.hpp"
 #include "engine/diagnose/findings/empirical.hpp"
-#include "engine/diagnose/findings/improvement.hpp"
 #include "engine/diagnose/findings/locate.hpp"
 #include "engine/diagnose/findings/members.hpp"
 #include "engine/diagnose/findings/parameters.hpp"

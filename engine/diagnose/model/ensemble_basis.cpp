@@ -1,7 +1,6 @@
 #include "engine/diagnose/model/ensemble_basis.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 #include <vector>
 

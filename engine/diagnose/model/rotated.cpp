@@ -1,6 +1,5 @@
 #include "engine/diagnose/model/rotated.hpp"
 
-#include <cmath>
 #include <tuple>
 
 #include "engine/diagnose/model/products.hpp"

@@ -11,7 +11,6 @@
 #include "engine/diagnose/findings/belief.hpp"
 #include "engine/diagnose/findings/members.hpp"
 #include "engine/diagnose/findings/search.hpp"
-#include "engine/diagnose/quantile.hpp"
 #include "engine/diagnose/values/value_improvement.hpp"
 #include "engine/diagnose/values/value_signature.hpp"
 #include "engine/diagnose/values/value_telling.hpp"

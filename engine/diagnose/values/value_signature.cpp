@@ -1,6 +1,5 @@
 #include "engine/diagnose/values/value_signature.hpp"
 
-#include <cmath>
 #include <map>
 
 #include "engine/base/on_threads.hpp"

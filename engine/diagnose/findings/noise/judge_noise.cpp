@@ -10,7 +10,6 @@
 #include <set>
 
 #include "engine/diagnose/baseline/outliers.hpp"
-#include "engine/diagnose/explanations/catalogue.hpp"
 #include "engine/diagnose/model/prediction.hpp"
 #include "engine/diagnose/model/restricted_likelihood.hpp"
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/diagnose/model/noise_law.hpp"
 #include "engine/diagnose/model/prediction.hpp"
 #include "engine/diagnose/model/rotated.hpp"
 
