@@ -1,14 +1,8 @@
 #include "engine/diagnose/planning/next_measurement.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <set>
 #include <string_view>
 
 #include "engine/base/on_threads.hpp"
@@ -16,6 +10,7 @@
 #include "engine/diagnose/model/precision.hpp"
 #include "engine/diagnose/planning/program.hpp"
 #include "engine/diagnose/planning/question.hpp"
+#include "engine/diagnose/words.hpp"
 
 namespace abbe::diagnose {
 
@@ -248,9 +243,8 @@ class Judge {
     if (!whole || !some) return std::nullopt;
     NextMeasurement m;
     m.change = change.text;
-    m.instruction = change.instruction.empty() ? recording_sentence(*whole)
-                                               : change.instruction + ". " + recording_sentence(*whole);
-    m.instruction[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(m.instruction[0])));
+    const std::string before = change.instruction.empty() ? "" : change.instruction + ". ";
+    m.instruction = capitalised(before + recording_sentence(*whole));
     for (const int k : question_.rivals) m.separates.push_back(case_.explanations.list[k].name);
     m.expected_probability = expected_probability(contenders_of(case_, hyper_, question_, *some, first_));
     m.minutes = change.minutes + minutes_of(*whole);

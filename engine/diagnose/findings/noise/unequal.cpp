@@ -6,6 +6,7 @@
 
 #include "engine/diagnose/findings/noise/noise_property.hpp"
 #include "engine/diagnose/findings/noise/touch_groups.hpp"
+#include "engine/diagnose/words.hpp"
 #include "engine/effects/noise/noise.hpp"
 
 namespace abbe::diagnose {
@@ -27,7 +28,7 @@ std::optional<NoiseFinding> judge_unequal(Scatter& scatter) {
   f.parameters.insert(f.parameters.end(), group.which.begin(), group.which.end());
   ask_repeats(scatter, in, excess / (1 + excess), f);
   f.factor = group.factor, f.where = {group.where};
-  f.sentence = fmt::format("T{} scatter {:.1f} times as much as the others.", group.touches.substr(1), noisy->ratio);
+  f.sentence = fmt::format("{} scatter {:.1f} times as much as the others.", capitalised(group.touches), noisy->ratio);
   if (group.factor == Factor::feature)
     f.sentence += " A machine file with it holds for programs that touch their features in this order.";
   scatter.quiet -= in;
