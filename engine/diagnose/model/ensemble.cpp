@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/diagnose/model/evidence.hpp"
 #include "engine/diagnose/model/log_sums.hpp"
 #include "engine/diagnose/model/products.hpp"
 #include "engine/lanes/random.hpp"

@@ -60,9 +60,8 @@ class Likelihood {
     const Cholesky root(m);
     const Vector v = root.whitened(b);
     const double log_m = 2 * root.half_log_determinant();
-    double rows = 0;
-    for (std::size_t i = 0; i < model_.follows.size(); ++i) rows += model_.follows[i] ? 1 : 0;
-    const double log_phi = rows * std::log(1 - phi_ * phi_);
+    const auto neighbours = static_cast<double>(std::count(model_.follows.begin(), model_.follows.end(), 1));
+    const double log_phi = neighbours * std::log(1 - phi_ * phi_);
     return -0.5 * (log_noise + log_phi + log_m + log_scale + squares - v.squaredNorm() + prior);
   }
 
