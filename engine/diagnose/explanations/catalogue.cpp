@@ -109,17 +109,7 @@ std::vector<Variant> settings(const Effect& effect, const std::vector<ParameterG
   for (std::size_t p = 0; p < effect.parameters.size(); ++p) {
     const bool linear = effect.parameters[p].linear, varied = !linear && grids[p].kind == ParameterGrid::Kind::tried;
     const double fixed = linear ? 0 : grids[p].fixed;
-    const std::vector<TriedValue> values =
-        varied ? grids[p].tried : std::vector<TriedValue>{{fixed, {fixed, fixed}, 1}};
-    std::vector<Variant> longer;
-    for (const Variant& prefix : list) {
-      for (const TriedValue& at : values) {
-        longer.push_back(prefix);
-        longer.back().theta.push_back(at.value);
-        longer.back().cells.push_back(at.cell);
-      }
-    }
-    list = std::move(longer);
+    list = with_each(list, varied ? grids[p].tried : std::vector<TriedValue>{{fixed, {fixed, fixed}, 1}});
   }
   return list;
 }

@@ -122,6 +122,19 @@ ParameterGrid with_those_between(const std::vector<double>& values) {
 
 }  // namespace
 
+std::vector<Variant> with_each(const std::vector<Variant>& variants, const std::vector<TriedValue>& values) {
+  std::vector<Variant> out;
+  for (const Variant& variant : variants) {
+    for (const TriedValue& at : values) {
+      Variant& longer = out.emplace_back(variant);
+      longer.theta.push_back(at.value);
+      longer.cells.push_back(at.cell);
+      longer.weight *= at.share;
+    }
+  }
+  return out;
+}
+
 double quickest_of_a_room_s(double duration_s) {
   constexpr double kUsually_s = 600, kOfARoom_s = 120, kFewCycles = 14, kManyCycles = 500;
   return std::max({kOfARoom_s, std::min(kUsually_s, duration_s / kFewCycles), duration_s / kManyCycles});

@@ -16,6 +16,9 @@ struct TriedValue {
   double share = 1;
 };
 
+/// Each of these variants with each of the values for its next parameter, and a share of its weight.
+std::vector<Variant> with_each(const std::vector<Variant>&, const std::vector<TriedValue>&);
+
 /// How a parameter enters the search.
 struct ParameterGrid {
   enum class Kind {

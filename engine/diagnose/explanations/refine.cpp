@@ -120,17 +120,7 @@ std::vector<Variant> parts_of(const Variant& whole, const Effect& effect, const 
     const std::vector<TriedValue> parts = cell.high <= cell.low ? std::vector<TriedValue>{{whole.theta[p], cell, 1}}
         : effect.parameters[p].sought == Sought::moment         ? thirds_of_touches(cell, t)
                                                                 : thirds(cell);
-    std::vector<Variant> longer;
-    for (const Variant& prefix : list) {
-      for (const TriedValue& at : parts) {
-        Variant part = prefix;
-        part.cells.push_back(at.cell);
-        part.theta.push_back(at.value);
-        part.weight *= at.share;
-        longer.push_back(std::move(part));
-      }
-    }
-    list = std::move(longer);
+    list = with_each(list, parts);
   }
   for (Variant& part : list) set_moment(part, effect, changes);
   return list;
