@@ -134,8 +134,7 @@ class Aligner {
   }
 
   void measure(const std::string& label, const DmisFeature& feature, const std::vector<std::size_t>& k) {
-    std::string measuring =
-        fmt::format("F({})=FEAT/{}\nMEAS/{},F({}),{}\n", label, feature.definition, feature.kind, label, k.size());
+    std::string measuring = begin_measuring(label, feature, k.size());
     std::string styli;
     for (const std::size_t i : k) {
       if (const std::string& tip = labels_.tips.at(scene(i).stylus.tip_ordinal); tip != stylus_) {
@@ -144,8 +143,7 @@ class Aligner {
             "TEXT/OPER,'drive to a clear place: the stylus is changed or turned to {0}'\nSNSLCT/SA({0})\n", stylus_);
         (i == k.front() ? styli : measuring) += select;
       }
-      const Vec3 p = surface_of(longer_, i), n = scene(i).normal;
-      measuring += fmt::format("PTMEAS/CART,{:.6f},{:.6f},{:.6f},{:.9f},{:.9f},{:.9f}\n", p.x, p.y, p.z, n.x, n.y, n.z);
+      measuring += measure_point(surface_of(longer_, i), scene(i).normal);
     }
     out_.statements += styli + measuring + "ENDMES\n";
   }

@@ -258,8 +258,7 @@ class Writer {
     set_motion(k);
     const auto block = blocks_.find(k);
     if (block != blocks_.end()) begin(k, block->second);
-    const Vec3 p = on_part(k), n = X_DW_.R * scene(k).normal;
-    out_ += fmt::format("PTMEAS/CART,{:.6f},{:.6f},{:.6f},{:.9f},{:.9f},{:.9f}\n", p.x, p.y, p.z, n.x, n.y, n.z);
+    out_ += measure_point(on_part(k), X_DW_.R * scene(k).normal);
     if (std::prev(blocks_.upper_bound(k))->second == k)
       out_ += fmt::format("ENDMES\nOUTPUT/FA({})\n", feature_label(k));
   }
@@ -283,9 +282,7 @@ class Writer {
     const std::string& label = feature_label(first);
     if (label != row(first).feature) say(fmt::format("'{}' of the first recording", row(first).feature));
     if (!as_recorded) say(fmt::format("its touches are numbers {} of the first recording", fmt::join(numbers, " ")));
-    const DmisFeature feature = dmis_feature(touched);
-    out_ +=
-        fmt::format("F({0})=FEAT/{1}\nMEAS/{2},F({0}),{3}\n", label, feature.definition, feature.kind, numbers.size());
+    out_ += begin_measuring(label, dmis_feature(touched), numbers.size());
   }
 
   const Case& case_;

@@ -91,4 +91,12 @@ DmisFeature dmis_feature(const Touched& s) {
   return turned(s).value_or(DmisFeature{"GSURF", "GSURF"});
 }
 
+std::string begin_measuring(const std::string& label, const DmisFeature& feature, std::size_t points) {
+  return fmt::format("F({0})=FEAT/{1}\nMEAS/{2},F({0}),{3}\n", label, feature.definition, feature.kind, points);
+}
+
+std::string measure_point(const Vec3& p, const Vec3& n) {
+  return fmt::format("PTMEAS/CART,{:.6f},{:.6f},{:.6f},{:.9f},{:.9f},{:.9f}\n", p.x, p.y, p.z, n.x, n.y, n.z);
+}
+
 }  // namespace abbe::diagnose

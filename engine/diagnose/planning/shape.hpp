@@ -33,5 +33,8 @@ struct DmisFeature {
   std::string kind, definition;
 };
 DmisFeature dmis_feature(const Touched&);
+/// Statements that define a feature and begin to measure it in so many points; that touch one point.
+std::string begin_measuring(const std::string& label, const DmisFeature&, std::size_t points);
+std::string measure_point(const Vec3& point, const Vec3& normal);
 
 }  // namespace abbe::diagnose
