@@ -100,6 +100,32 @@ std::string help_of_slow_clock(double interval) {
   return fmt::format("if these are {}, convert them: {:.3g} {} are {:.3g} s", name, interval, name, unit * interval);
 }
 
+/// Doubts times from touch to touch.
+void doubt_intervals(const Recording& recording, const std::string& file, std::vector<Diagnostic>& messages) {
+  constexpr double kDay_s = 86400, kLong_s = 300, kShort_s = 0.25, kPause_s = 7 * kDay_s;
+  std::vector<double> times, between;
+  for (const RecordingRow& row : recording.rows)
+    if (row.time_s) times.push_back(*row.time_s);
+  std::sort(times.begin(), times.end());
+  for (std::size_t i = 1; i < times.size(); ++i) between.push_back(times[i] - times[i - 1]);
+  if (between.empty()) return;
+  const double longest = *std::max_element(between.begin(), between.end()), usual = median(std::move(between));
+  if (usual >= kLong_s)
+    messages.push_back(diagnostic(
+        Code::W0728,
+        fmt::format("{}: by time_s, half of the touches come {:g} s or more after the one before", file, usual),
+        fmt::format("if these are milliseconds, convert them: {:g} ms are {:g} s", usual, 1e-3 * usual)));
+  else if (usual > 0 && usual < kShort_s)
+    messages.push_back(diagnostic(
+        Code::W0728,
+        fmt::format("{}: by time_s, half of the touches come {:g} s or less after the one before", file, usual),
+        help_of_slow_clock(usual)));
+  if (longest >= kPause_s && usual < kLong_s)
+    messages.push_back(diagnostic(
+        Code::W0728, fmt::format("{}: by time_s, {:.0f} days pass between two touches", file, longest / kDay_s),
+        "if some rows have the time of another clock, write the seconds since one start into all"));
+}
+
 }  // namespace
 
 void doubt_temperatures(const Recording& recording, const std::string& file, std::vector<Diagnostic>& messages) {
@@ -112,7 +138,6 @@ void doubt_temperatures(const Recording& recording, const std::string& file, std
 void doubt_motion(const Recording& recording, const std::string& file, std::vector<Diagnostic>& messages) {
   constexpr double kSlow_mm_s = 0.02, kFast_mm_s = 100, kSecondsPerMinute = 60;
   constexpr double kWeak_mm_s2 = 1, kHard_mm_s2 = 5e4;
-  constexpr double kDay_s = 86400, kLong_s = 300, kShort_s = 0.25, kPause_s = 7 * kDay_s;  // from touch to touch
   const std::string kNotLogged = "no touch is made standing still: if it was not logged there, leave the field empty";
   const auto doubt = [&](std::optional<double> RecordingRow::*column, std::string_view name, double low, double high,
                          auto help) {
@@ -138,27 +163,7 @@ void doubt_motion(const Recording& recording, const std::string& file, std::vect
         ? fmt::format("if these are um/s2, convert them: {:g} um/s2 are {:g} mm/s2", value, 1e-3 * value)
         : fmt::format("if these are m/s2, convert them: {:g} m/s2 are {:g} mm/s2", value, 1e3 * value);
   });
-  std::vector<double> times, between;
-  for (const RecordingRow& row : recording.rows)
-    if (row.time_s) times.push_back(*row.time_s);
-  std::sort(times.begin(), times.end());
-  for (std::size_t i = 1; i < times.size(); ++i) between.push_back(times[i] - times[i - 1]);
-  if (between.empty()) return;
-  const double longest = *std::max_element(between.begin(), between.end()), usual = median(std::move(between));
-  if (usual >= kLong_s)
-    messages.push_back(diagnostic(
-        Code::W0728,
-        fmt::format("{}: by time_s, half of the touches come {:g} s or more after the one before", file, usual),
-        fmt::format("if these are milliseconds, convert them: {:g} ms are {:g} s", usual, 1e-3 * usual)));
-  else if (usual > 0 && usual < kShort_s)
-    messages.push_back(diagnostic(
-        Code::W0728,
-        fmt::format("{}: by time_s, half of the touches come {:g} s or less after the one before", file, usual),
-        help_of_slow_clock(usual)));
-  if (longest >= kPause_s && usual < kLong_s)
-    messages.push_back(diagnostic(
-        Code::W0728, fmt::format("{}: by time_s, {:.0f} days pass between two touches", file, longest / kDay_s),
-        "if some rows have the time of another clock, write the seconds since one start into all"));
+  doubt_intervals(recording, file, messages);
 }
 
 void leave_out_head_at_rest(Recording& recording, const Machine& machine, const std::string& file,

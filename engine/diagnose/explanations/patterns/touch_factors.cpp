@@ -74,6 +74,18 @@ std::vector<int> levels_of(const std::vector<double>& value) {
   return out;
 }
 
+/// Between features, where no touch was left out.
+void find_ways(const RecordedTouches& t, const std::vector<int>& rows, TouchFactors& out) {
+  out.arriving.resize(rows.size()), out.leaving.resize(rows.size());
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    const TouchScene &from = t.touches[rows[i - 1]].scene, &to = t.touches[rows[i]].scene;
+    const Vec3 way = to.point - from.point;
+    if (rows[i - 1] + 1 == rows[i] && from.run == to.run && from.setup == to.setup && from.feature != to.feature &&
+        norm(way) > 0)
+      out.leaving[i - 1] = out.arriving[i] = way / norm(way);
+  }
+}
+
 }  // namespace
 
 TouchFactors::TouchFactors(const RecordedTouches& t, const std::vector<int>& rows)
@@ -117,14 +129,7 @@ TouchFactors::TouchFactors(const RecordedTouches& t, const std::vector<int>& row
     part_above_20(row) = s.temperature.part - kReferenceTemperature_C;
     for (int k = 0; k < 3; ++k) scale_above_20[k](row) = s.temperature.scale[k] - kReferenceTemperature_C;
   }
-  arriving.resize(rows.size()), leaving.resize(rows.size());
-  for (std::size_t i = 1; i < rows.size(); ++i) {
-    const TouchScene &from = t.touches[rows[i - 1]].scene, &to = t.touches[rows[i]].scene;
-    const Vec3 way = to.point - from.point;
-    if (rows[i - 1] + 1 == rows[i] && from.run == to.run && from.setup == to.setup && from.feature != to.feature &&
-        norm(way) > 0)
-      leaving[i - 1] = arriving[i] = way / norm(way);
-  }
+  find_ways(t, rows, *this);
   onto_unit(touch), onto_unit(settled), onto_unit(clamped), onto_unit(place);
   for (Points& r : reading) onto_unit(r);
   one_round = on_one_round(place, normal);
