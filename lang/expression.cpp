@@ -377,8 +377,7 @@ class Reader {
     const Value index = any();
     if (peek() != close) fail(open, open + 1, fmt::format("this '{}' is not closed", text_[open]));
     ++at_;
-    if (index.type != Type::integer && !(index.type == Type::real && !index.known()) &&
-        !(index.type == Type::real && std::floor(index.constant()) == index.constant()))
+    if (!index.is_index())
       fail(open + 1, at_ - 1, fmt::format("an index is a whole number, this is {}", name_of(index.type)));
     auto v = located(begin, [&] { return names_.variable(name, index); });
     if (!v)

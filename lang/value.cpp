@@ -1,12 +1,17 @@
 #include "lang/value.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace abbe::lang {
 
 std::string_view name_of(Type type) {
   constexpr std::string_view kNames[] = {"BOOL", "INTGR", "REAL", "CHAR", "VECTOR"};
   return kNames[static_cast<std::size_t>(type)];
+}
+
+bool Value::is_index() const {
+  return type == Type::integer || (type == Type::real && (!known() || std::floor(constant()) == constant()));
 }
 
 bool Value::known() const {

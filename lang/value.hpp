@@ -25,6 +25,8 @@ struct Value {
   std::vector<plan::Expression> parts;  ///< three for a vector, else one; of a text its number in Texts
 
   bool is_number() const { return type == Type::integer || type == Type::real; }
+  /// Whether it may name an element of an array: a whole number, or one that only the machines know.
+  bool is_index() const;
   /// True while nothing in it depends on what is measured.
   bool known() const;
   /// Precondition: known.

@@ -44,7 +44,7 @@ bool assign_to_label(Lowering& lowering, const RawStatement& raw, Value value) {
   if (label.closing) {
     index = lowering.value(label.index);
     if (!index) return false;
-    if (!index->is_number()) {
+    if (!index->is_index()) {
       lowering.error(Code::E0236, raw.label->span,
                      fmt::format("an index is a whole number, this is {}", name_of(index->type)));
       return false;
