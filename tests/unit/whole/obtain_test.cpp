@@ -98,6 +98,35 @@ TEST_CASE("numbers come in the units of the program") {
   CHECK(v[1] == Approx(50.8));
 }
 
+TEST_CASE("the value of a tolerance comes in the units of the program too") {
+  CHECK(
+      values(
+          "UNITS/INCH,ANGDEC\nT(D)=TOL/DIAM,-1,1\nF(C)=FEAT/CIRCLE,INNER,CART,1,1,0,0,0,1,2\nMEAS/CIRCLE,F(C),4\nENDMES\n"
+          "EVAL/FA(C),T(D)\n",
+          {"OBTAIN/TA(D),3"})[0] == Approx(50.8));  // two inches, put out in mm
+  // A countersink of 90 degrees: its radius grows as its depth. Of the cone and of its tolerance the angle is the whole one.
+  const std::string cone = "T(A)=TOL/ANGL,-1,1\n" +
+      measured("C", "CONE,INNER,CART,0,0,0,0,0,1,90",
+               {"2,0,2,-1,0,1", "-2,0,2,1,0,1", "0,2,2,0,-1,1", "0,-2,2,0,1,1", "9,0,9,-1,0,1", "-9,0,9,1,0,1",
+                "0,9,9,0,-1,1", "0,-9,9,0,1,1"}) +
+      "EVAL/FA(C),T(A)\n";
+  const std::vector<double> angles = values(cone, {"OBTAIN/FA(C),11", "OBTAIN/TA(A),3"});
+  CHECK(angles[0] == Approx(90));
+  CHECK(angles[1] == Approx(90));
+}
+
+TEST_CASE("variables hold what was measured, whatever they are made of") {
+  const std::string two = "DECL/REAL,X,Y,ZERO,A[2]\nDECL/VECTOR,V\n" +
+      measured("P", "POINT,CART,5,20,0,0,0,1", {"5,20,0,0,0,1"}) +
+      "X=OBTAIN/FA(P),4\nY=OBTAIN/FA(P),5\nZERO=OBTAIN/FA(P),6\n";
+  // Both components are read before either is changed.
+  CHECK(values(two + "V=ASSIGN/VCART(X,Y,0)\nV=ASSIGN/VCART(VECY(V),VECX(V),0)\n",
+               {"ASSIGN/VECX(V)", "ASSIGN/VECY(V)"}) == std::vector<double>{20, 5});
+  // A measured index changes one element, and nobody knows before which.
+  CHECK(values(two + "A[1]=ASSIGN/7\nA[2]=ASSIGN/8\nA[NINT(1+ZERO)]=ASSIGN/9\n", {"ASSIGN/A[1]", "ASSIGN/A[2]"}) ==
+        std::vector<double>{9, 8});
+}
+
 TEST_CASE("tolerances and sensors can be read") {
   const std::string defined =
       "T(D)=TOL/DIAM,-0.2,0.1\nF(C)=FEAT/CIRCLE,INNER,CART,20,20,0,0,0,1,10\nMEAS/CIRCLE,F(C),4\n"
@@ -162,6 +191,10 @@ TEST_CASE("a DO whose limit is measured has the turns of one that is known") {
   CHECK(begun[0] == 2);
   CHECK(begun[1] == Approx(2.5));
   // A body that sets the variable is left early.
-  CHECK(values(loop + "N=ASSIGN/0\nDO/I,1,9+ZERO\nN=ASSIGN/N+1\nI=ASSIGN/I+3\nENDDO\n", {"ASSIGN/N"}) ==
-        std::vector<double>{3});
+  for (const char* limit : {"9+ZERO", "9"})
+    CHECK(values(loop + "N=ASSIGN/0\nDO/I,1," + limit + "\nN=ASSIGN/N+1\nI=ASSIGN/I+3\nENDDO\n", {"ASSIGN/N"}) ==
+          std::vector<double>{3});
+  // What a macro sets is set in every turn.
+  CHECK(values(loop + "M(INC)=MACRO\nN=ASSIGN/N+1\nENDMAC\nN=ASSIGN/0\nDO/I,1,3+ZERO\nCALL/M(INC)\nENDDO\n",
+               {"ASSIGN/N"}) == std::vector<double>{3});
 }
