@@ -71,6 +71,8 @@ TEST_CASE("kinds of arguments") {
   CHECK(kind_of("SIN(X)*2") == Kind::expression);
   CHECK(kind_of("12:30:15") == Kind::expression);
   CHECK(kind_of("1.0.5") == Kind::expression);
+  CHECK(parse("X/+zdir").arguments.at(0).word == "ZDIR");
+  CHECK(parse("X/-zdir").arguments.at(0).word == "-ZDIR");
 }
 
 TEST_CASE("commas in parentheses and strings do not separate arguments") {

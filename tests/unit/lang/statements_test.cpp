@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <ctime>
 #include <set>
 
@@ -77,7 +78,8 @@ TEST_CASE("directives reach the compilation") {
   const Compiled c = compile_text(
       "$$! machine coord3-mc16  machines 200 seed 18446744073709551615\n$$! workpiece block.json "
       "place 1 -2.5 3e2\n"
-      "$$! expect accepted between 0.3 0.45\n$$! expect accepted >= 0.3\nUNITS/INCH,ANGDEC\n");
+      "$$! expect accepted between 0.3 0.45\n$$! expect accepted >= 0.3\n$$! expect accepted between 0.3 0.3\n"
+      "UNITS/INCH,ANGDEC\n");
   CHECK_FALSE(c.sink.has_errors());
   const Directives& d = c.result.directives;
   CHECK(d.machine == "coord3-mc16");
@@ -86,13 +88,14 @@ TEST_CASE("directives reach the compilation") {
   CHECK(d.workpiece == "block.json");
   REQUIRE(d.place_mm.has_value());
   CHECK(*d.place_mm == Vec3{1, -2.5, 300});
-  REQUIRE(d.expectations.size() == 2);
+  REQUIRE(d.expectations.size() == 3);
   CHECK(d.expectations[0].subject == "accepted");
   CHECK(d.expectations[0].low == 0.3);
   CHECK(d.expectations[0].high == 0.45);
   CHECK(d.expectations[0].line == 3);
   CHECK(d.expectations[0].text == "expect accepted between 0.3 0.45");
   CHECK_FALSE(d.expectations[1].high.has_value());
+  CHECK(d.expectations[2].high == 0.3);
 }
 
 TEST_CASE("an operation carries the statement that it came from") {
@@ -213,10 +216,59 @@ TEST_CASE("the turns of a DO are counted, not added up") {
   CHECK(places("DO/I,3,1\nGOTO/I,0,0\nENDDO\n").empty());
 }
 
+TEST_CASE("signs, negations and whole numbers are what they say") {
+  const auto places = [](const std::string& text) { return goto_places(compile_text(text).result); };
+  CHECK(places("GOTO/3*(--2),0,0\nGOTO/3*(-+2),0,0\n") == std::vector<double>{6, -6});
+  CHECK(places("IF/(.NOT. .NOT. (1 .GT. 2))\nGOTO/1,0,0\nENDIF\n").empty());
+  // What is no whole number is cut off by INTGR, whatever the numbers that it is made of.
+  CHECK(places("DECL/INTGR,I\nI=ASSIGN/2**-1\nGOTO/I,0,0\nI=ASSIGN/MX(1,2.5)\nGOTO/I,0,0\n") ==
+        std::vector<double>{0, 2});
+  CHECK(places("SELECT/1\nCASE/1\nGOTO/1,0,0\nENDCAS\nDFTCAS\nGOTO/2,0,0\nENDCAS\nENDSEL\n") == std::vector<double>{1});
+  // An index counts, also where it is computed.
+  for (const char* half : {"DECL/REAL,A[2],X\nA[1]=ASSIGN/1\nX=ASSIGN/A[1.5]\n",
+                           "DECL/REAL,X\nX=ASSIGN/3.5\nF(P)=FEAT/POINT,CART,1,2,3,0,0,1\nX=OBTAIN/F(P),X\n"})
+    CHECK_MESSAGE(compile_text(half).sink.has_errors(), std::string(half));
+}
+
+TEST_CASE("angles are degrees where UNITS says nothing of them, and where colons stand in them") {
+  const auto places = [](const std::string& text) { return goto_places(compile_text(text).result); };
+  CHECK(places("UNITS/INCH\nGOTO/POL,2,60,0\n").at(0) == doctest::Approx(25.4));  // cos 60 degrees is a half
+  CHECK(places("UNITS/MM,ANGRAD\nGOTO/POL,2,60:00:00,0\n").at(0) == doctest::Approx(1));
+  CHECK(compile_text("GOTO/POL,2,59:60:00,0\n").sink.has_errors());
+}
+
+TEST_CASE("a matrix of few decimals is squared up") {
+  const Compiled c = compile_text("D(M)=DATSET/TRMATX,1,0.0005,0,0,1,0,0,0,1,7,8,9\n");
+  REQUIRE(c.result.plan.operations.size() == 1);
+  const Rigid X_MD = std::get<plan::SetMatrixFrame>(c.result.plan.operations[0].action).X_MD;
+  CHECK(std::fabs(dot(X_MD.R.cx, X_MD.R.cy)) < 1e-15);
+  CHECK(norm(X_MD.R.cy) == doctest::Approx(1).epsilon(1e-15));
+  CHECK(X_MD.p == Vec3{7, 8, 9});
+}
+
+TEST_CASE("a stylus hangs down whatever the sign of its length") {
+  const Compiled c = compile_text("S(P)=SNSDEF/PROBE,INDEX,POL,0,0,0,0,-1,-150,4\n");
+  CHECK(c.result.plan.sensors.at(0).tip_in_r == Vec3{0, 0, -150});
+}
+
+TEST_CASE("a tolerance is the one that its numbers make, however they are written") {
+  // X is another number the second time; limits that are the same number are limits in order.
+  const Compiled c = compile_text(
+      "DMISMN/'sizes'\nSNSLCT/SA(P)\nF(C)=FEAT/CIRCLE,INNER,CART,0,0,0,0,0,1,10\nMEAS/CIRCLE,F(C),4\nENDMES\nDECL/REAL,X\n"
+      "X=ASSIGN/0.1\nT(D)=TOL/DIAM,-X,X\nOUTPUT/FA(C),TA(D)\nX=ASSIGN/0\nT(D)=TOL/DIAM,-X,X\nOUTPUT/FA(C),TA(D)\nENDFIL\n");
+  REQUIRE(c.sink.list().size() == 1);
+  CHECK(c.sink.list()[0].code == Code::N0611);
+  const plan::Plan& plan = c.result.plan;
+  REQUIRE(plan.characteristics.size() == 2);
+  CHECK(plan[plan.characteristics[0].tolerance].arguments.number("upper") == 0.1);
+  CHECK(plan[plan.characteristics[1].tolerance].arguments.number("upper") == 0);
+}
+
 TEST_CASE("texts are counted in characters, whatever their bytes") {
   const auto places = [](const std::string& text) { return goto_places(compile_text(text).result); };
   CHECK(places("GOTO/LEN('Ä€x'),0,0\nGOTO/INDX('Ä€x','x'),0,0\nGOTO/ORD('Ä'),0,0\nGOTO/ORD(CHR(196)),0,0\n") ==
         std::vector<double>{3, 3, 196, 196});
+  CHECK(places("GOTO/LEN(SUBSTR('ab',3,2)),0,0\n") == std::vector<double>{0});  // behind the last one is nothing
   const std::string same = "GOTO/1,0,0\nENDIF\n";
   CHECK(places("IF/(SUBSTR('Ä€x',2,2) .EQ. '€')\n" + same) == std::vector<double>{1});
   CHECK(places("IF/(UPC('äσςß') .EQ. 'ÄΣΣß')\n" + same) == std::vector<double>{1});
