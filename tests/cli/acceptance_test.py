@@ -5,6 +5,7 @@ import itertools
 import json
 import math
 import pathlib
+import re
 import shlex
 import subprocess
 import sys
@@ -48,6 +49,15 @@ def test_reports():
     assert all(0.5 < check["share_passed"] <= 1 for check in new["probe"])
     assert new["messages"] == [], new["messages"]
     text = run(ABBE, "machine", "screen", PORTAL, "--machines", "300").stdout
+    told = " ".join(text.split())
+    # MPE(l) = 4 um + 4 um/m of E0, 4.5 um + 4 um/m of E150
+    for piece in ("E0 x 1056.0 8.22", "E150 yz+ 845.2 7.88", "R0 3.50", "P_Form.Sph.1x25 2.50", "P_Size.Sph.1x25 1.50"):
+        assert piece in told, text
+    assert [check["limit_um"] for check in new["probe"]] == [3.5, 2.5, 1.5]
+    for check in new["probe"]:
+        assert f"{check['limit_um']:.2f} {check['median_um']:.2f} {100 * check['share_passed']:.1f} %" in told, text
+    drawn = int(re.search(r"virtual machines drawn (\d+)", told)[1])
+    assert f"300 {100 * 300 / drawn:.1f} % failed the MPE" in told, text
     assert "55 lengths" in text and "E150  xz-" in text and "P_Size.Sph.1x25" in text, text
     assert "E150: MPE(l) = 4.5 um + 4 um/m" in run(ABBE, "machine", "show", PORTAL).stdout
 

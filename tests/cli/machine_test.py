@@ -186,6 +186,32 @@ class Machine(harness.Case):
         self.assertEqual(shown["specification"]["mpe"], given["specification"]["mpe"])   # to the last digit
         self.assertEqual(shown["specification"]["probing"], given["specification"]["probing"])
 
+    def test_every_figure_of_the_file_comes_back_in_its_unit(self):
+        given = json.loads(PORTAL.read_text())
+        given["geometry"]["squareness_um_per_m"] = {"cwy": 3, "bwz": 4, "awz": 5}
+        given["geometry"]["components"]["eay"]["e_max"] = 6
+        given["head"]["angle_sd_arcsec"] = {"A": 0.83, "B": 0.6}
+        given["sensors"] = {"S": {"head_deg": [45, 90], "tip_in_r_mm": [0, 0, -150], "diameter_mm": 5, "shaft_diameter_mm": 3}}
+        given["bounds"] = [{"influence": "vibration and outliers", "at_most_um": 0.3, "source": "floor survey"}]
+        path = self.write("figures.json", json.dumps(given))
+        shown = self.machine_json("show", path)
+        self.assertEqual(shown["squareness_um_per_m"], given["geometry"]["squareness_um_per_m"])
+        self.assertEqual(shown["head"]["angle_sd_arcsec"], given["head"]["angle_sd_arcsec"])
+        for key, value in given["sensors"]["S"].items():
+            self.assertEqual(shown["sensors"]["S"][key], value)
+        self.assertEqual(shown["bounds"], given["bounds"])
+        for name, component in given["geometry"]["components"].items():
+            unit = "um_per_m2" if name[1] in "abc" else "um_per_m"
+            self.assertEqual(shown["components"][name]["e_max_" + unit], component["e_max"])
+        text = " ".join(self.machine("show", path).split())
+        # the largest over the travel: e_max times 1.6 m of x, 1 m of y
+        for piece in ("exx s 0.8 c 0.1 3.6 um/m 5.76 um", "eay s 0.6 c 0 6 um/m2 6 um/m", "eax s 0.6 c 0 5 um/m2 8 um/m",
+                      "known squareness: cwy 3, bwz 4, awz 5 um/m", "R0 at most 3.5 um", "P_Form.Sph.1x25 at most 2.5 um",
+                      "P_Size.Sph.1x25 at most 1.5 um", "repeatability A 0.83, B 0.6 arcsec",
+                      "S A 45, B 90 deg tip 0 0 -150 mm diameter 5 mm, shaft 3 mm",
+                      "vibration and outliers at most 0.3 um at a touch (floor survey)"):
+            self.assertIn(piece, text)
+
     def test_show_and_screen_refuse_effects_that_no_command_can_run(self):
         machine = json.loads(self.machine("init", "mine"))
         for effect, code, words in (({"name": "probe.tipradius"}, "E0305", "probe.tip_radius"),
