@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <nlohmann/json.hpp>
+
 using namespace abbe;
 
 namespace {
@@ -62,9 +64,10 @@ TEST_CASE("whatever is found, there are three sentences, a table and what to do 
     return seen;
   };
   d.smallest_detectable = {seen_from("machine.ram_droop", 6.2), seen_from("probe.tip_radius", 1.5),
-                           seen_from("noise.vibration", 9)};
+                           seen_from("noise.vibration", 0.9)};
   d.cannot_judge = {{"thermal.drift", {"time_s"}, {}}};
   CHECK(diagnosis_sentences(d).size() == 3);
+  CHECK(says(diagnosis_sentences(d)[1], "at the least 1.5 um (probe.tip_radius)"));  // scatter is another thing
   CHECK(
       says(diagnosis_sentences(d).back(),
            "Of the 2 effects that such touches can show, half would be seen from 1.5 um on at the latest, and the last "
@@ -75,7 +78,10 @@ TEST_CASE("whatever is found, there are three sentences, a table and what to do 
   d.baseline.geometry_scale = 3;
   d.messages = {diagnostic(Code::W0723, "large", "measure calibrated lengths")};
   CHECK_FALSE(says(diagnosis_text(d), "as it is"));
-  CHECK(says(diagnosis_text(d), "what to do next:\n  Measure calibrated lengths.\n"));
+  for (const Code doubt : {Code::W0723, Code::W0716, Code::W0720, Code::W0730}) {
+    d.messages = {diagnostic(doubt, "doubted", "measure calibrated lengths")};
+    CHECK(says(diagnosis_text(d), "what to do next:\n  Measure calibrated lengths.\n"));
+  }
 
   Diagnosis scatter = named();
   scatter.effects.front().members = {"noise.vibration"};
@@ -104,7 +110,7 @@ TEST_CASE("text and page say which touches were left out, and what to do with a 
   d.model_effects = {{"machine.squareness", {}}};
   for (const std::string& written : {diagnosis_text(d), diagnosis_html(d, "r.csv", "m.json")}) {
     CHECK(says(written, "1 touch left out: SPH1 touch 7 (setup 1, run 1)"));
-    CHECK(says(written, "--model-out writes the machine file with it"));
+    CHECK(says(written, "--model-out writes the machine file with it,"));  // of one name there is no first
   }
 }
 
@@ -131,6 +137,8 @@ TEST_CASE("a chance has no more digits than simulations give") {
   Diagnosis d = nothing_found();
   d.p_value = 1;
   CHECK(says(first_sentence(d), "by chance in nearly all of such recordings"));
+  d.p_value = 0.052;
+  CHECK(says(first_sentence(d), "by chance in 5.2 % of such recordings"));
   d.p_value = 1 / 2682.0;
   d.verdict = Verdict::named;
   CHECK(says(first_sentence(d), "by chance it would look so in 1 in 2700 of such recordings"));
@@ -144,7 +152,11 @@ TEST_CASE("touches are predicted better only where less of them is left") {
     d.improvement->rms_before_um = 0.91, d.improvement->rms_after_um = rms_after_um;
     return diagnosis_sentences(d).back();
   };
-  CHECK(says(third(20, 0.8), "had not seen it predicts better: "));
+  d.improvement->bias_before_um = 0.44, d.improvement->bias_after_um = 0.22;
+  CHECK(
+      says(third(20, 0.8),
+           "had not seen it predicts better: rms of what is left 0.91 to 0.80 um, bias where it acts 0.44 to 0.22 um"));
+  CHECK(says(third(3.5, 0.8), "it predicts better, though not beyond doubt"));  // two standard errors are 4 nats
   CHECK(says(third(20, 1.2), "something is there too, but not of the size"));
   CHECK(says(third(2, 0.8), "it predicts better, though not beyond doubt"));
   CHECK(says(third(2, 1.28), "it does not predict better"));
@@ -172,4 +184,97 @@ TEST_CASE("the noise stands beside that of the machine file") {
   Diagnosis d = nothing_found();
   d.baseline.noise_um = 1.06, d.baseline.stated_noise_um = 0.5;
   CHECK(says(baseline_in_words(d), "noise 1.06 um (0.50 in the machine file)"));
+  d.baseline.noisier = true;
+  CHECK(says(first_sentence(d), "if its touches scatter 2.1 times as much as its file says"));
+}
+
+TEST_CASE("what the names leave, and lengths beyond the specification, are told in their sizes") {
+  Diagnosis d = named();
+  d.cannot_judge = {{"machine.squareness", {"time_s"}, {}}, {"thermal.drift", {"time_s"}, {}}};
+  REQUIRE(open_questions(d).size() == 1);  // what was named is no open question
+  CHECK(open_questions(d)[0].effect == "thermal.drift");
+  d.adequacy_p = 0.005;
+  CHECK(says(diagnosis_sentences(d)[1], "something else is at work"));
+  d.adequacy_p = 0.03;
+  CHECK(says(diagnosis_sentences(d)[1], "something else may be at work"));
+  d = nothing_found();
+  d.beyond = LengthError{500, -0.012, 0.0035};
+  CHECK(says(first_sentence(d), "wrong by 12 um, where the specification allows 3.5 um"));
+}
+
+TEST_CASE("JSON has each figure under its own name") {
+  Diagnosis d = named();
+  DiagnosedEffect& e = d.effects.front();
+  e.members = {"machine.squareness", "machine.scale"};
+  e.change = {{.from = 2, .until = 4}, {.from = 3}};
+  d.unexplained.emplace();
+  d.unexplained->amplitude_um = 5, d.unexplained->low_um = 4, d.unexplained->high_um = 6;
+  d.improvement = Improvement{"scheme", 20, 2, 0.91, 0.8, 0.44, 0.22, 3, 1.5};
+  Detectable shows;
+  shows.detect = 7, shows.name = 8, shows.detect_um = 1.5, shows.name_um = 2.5;
+  d.smallest_detectable = {shows};
+  d.beyond = LengthError{500, -0.012, 0.0035};
+  JudgedValue v;
+  v.unit = "mm", v.value = 100.002, v.reference = 100, v.deviation = 0.002, v.u = 0.001, v.z = 2.1, v.p = 0.04,
+  v.low = -0.003, v.high = 0.0025;
+  d.values = {v};
+  const auto json = nlohmann::json::parse(diagnosis_json(d, "m"));
+  CHECK(json["effects"][0]["new_in_run"] == nlohmann::json{2, 3});
+  CHECK(json["effects"][0]["gone_in_run"] == nlohmann::json{4, nullptr});
+  CHECK(json["unexplained"]["amplitude_um"]["interval95"] == nlohmann::json{4, 6});
+  CHECK(json["improvement"]["rms_um"] == nlohmann::json{{"before", 0.91}, {"after", 0.8}});
+  CHECK(json["improvement"]["bias_um"] == nlohmann::json{{"before", 0.44}, {"after", 0.22}});
+  CHECK(json["improvement"]["chi2_per_dof"] == nlohmann::json{{"before", 3}, {"after", 1.5}});
+  const auto& seen = json["smallest_detectable"][0];
+  CHECK(seen["detect"] == 7);
+  CHECK(seen["name"] == 8);
+  CHECK(seen["detect_um"] == 1.5);
+  CHECK(seen["name_um"] == 2.5);
+  CHECK(json["length_beyond_mpe"]["error_um"] == doctest::Approx(-12));
+  CHECK(json["length_beyond_mpe"]["mpe_um"] == doctest::Approx(3.5));
+  CHECK(json["values"][0]["lcl"] == -0.003);
+  CHECK(json["values"][0]["ucl"] == 0.0025);
+  CHECK(json["p_value"] == 1e-6);
+  d.judged = Judged::targets_only;
+  CHECK(nlohmann::json::parse(diagnosis_json(d, "m"))["p_value"].is_null());
+}
+
+TEST_CASE("a machine file keeps what is not superseded, and gets what was found") {
+  Diagnosis d = named();
+  d.superseded = {0, 2};
+  d.model_effects = {{"machine.squareness", {{"squareness_urad", {12, 1.5, ""}}, {"plane", {0, 0, "xy"}}}}};
+  d.known_state = "{\"touches\": 225}";
+  const auto machine = nlohmann::json::parse(
+      improved_machine(R"({"name": "m", "effects": [{"name": "a"}, {"name": "b"}, {"name": "c"}, {"name": "d"}]})", d));
+  REQUIRE(machine["effects"].size() == 3);
+  CHECK(machine["effects"][0]["name"] == "b");
+  CHECK(machine["effects"][1]["name"] == "d");
+  CHECK(machine["effects"][2]["parameters"]["squareness_urad"] == nlohmann::json{{"value", 12}, {"u", 1.5}});
+  CHECK(machine["effects"][2]["parameters"]["plane"] == "xy");
+  CHECK(machine["known_state"]["touches"] == 225);
+}
+
+TEST_CASE("values and residuals are drawn in their units") {
+  Diagnosis d = named();
+  d.improvement.emplace();
+  d.improvement->bias_before_um = 0.44, d.improvement->bias_after_um = 0.22;
+  d.residuals.resize(2);
+  for (ResidualRow& r : d.residuals) r.before_um = 1;
+  d.residuals[1].time_s = 600;  // from 0 to 10 minutes
+  std::string page = diagnosis_html(d, "r.csv", "m.json");
+  CHECK(says(page, "<td class=\"n\">0.44</td><td class=\"n\">0.22</td>"));
+  CHECK(says(page, ">10</text>"));
+  CHECK(says(page, "cy=\"86.0\""));  // nothing is left of them: the middle of the second plot, from 24 to 148
+  d.residuals.clear();
+  JudgedValue v;
+  v.characteristic = "A1", v.program = "p.dmi", v.unit = "deg";
+  v.deviation = 0.001, v.low = -0.002, v.high = 0.002;  // 3.6 seconds of arc of 7.2
+  d.values = {v};
+  page = diagnosis_html(d, "v.csv", "m.json");
+  CHECK(says(page, "deviation, arcsec"));
+  CHECK(says(page, ">6</text>"));
+  CHECK(says(page, "r=\"3.5\" fill=\"#0072B2\""));
+  d.values[0].deviation = 0.003;
+  CHECK(says(diagnosis_html(d, "v.csv", "m.json"), "r=\"3.5\" fill=\"#D55E00\""));
+  CHECK(says(diagnosis_text(d), "    -0.00200 to   0.00200 "));
 }
