@@ -134,7 +134,7 @@ TEST_CASE("every form of a result and its uncertainty comes back as it was writt
     for (const plan::CharacteristicId c : output->characteristics) {
       const double value = 0.01 * static_cast<double>(written.size() + 1);
       const bool inside = written.size() % 2 == 0;
-      record.values.push_back({c, value, {std::nullopt, inside ? 1.0 : 0.0}});
+      record.values.push_back({c, value, {std::nullopt, inside ? value : 0.0}});  // a limit is inside
       CharacteristicReport report;
       report.characteristic = c, report.reference = value;
       report.tolerance = plan[plan[c].tolerance].label, report.line = plan[c].line;
@@ -161,6 +161,18 @@ TEST_CASE("every form of a result and its uncertainty comes back as it was writt
     CHECK(v.uncertainty->ucl == Approx(written[i] / 40).scale(0));
     CHECK(v.uncertainty->conformance.has_value() == (i % 2 == 0));
   }
+  // The next turn of a loop has an uncertainty of its own; what is the same on every machine has none.
+  records = {records.front(), records.front()};
+  reports.push_back(reports.front());
+  reports.back().evaluation = 2, reports.back().summary.u = 0.5;
+  reports[1].varies = false;
+  const auto turns = read(dmis_result(plan, records, reports)).result.values;
+  REQUIRE(turns.size() == 6);
+  CHECK(turns[0].uncertainty->u == Approx(written[0] / 100).scale(0));
+  CHECK(turns[3].uncertainty->u == 0.5);
+  CHECK_FALSE(turns[1].uncertainty);
+  records.front().features.front().point.x = -1e-9;
+  CHECK(dmis_result(plan, records).find("-0.00000") == std::string::npos);
 }
 
 TEST_CASE("results of tolerances in all their forms") {
