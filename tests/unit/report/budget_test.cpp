@@ -66,6 +66,8 @@ TEST_CASE("what the two leave open is their interaction, named when it matters")
   CHECK(lines[2].name == "interaction");
   CHECK(lines[2].share == doctest::Approx(1.0 / 3));
   CHECK(lines[0].share + lines[1].share + lines[2].share == doctest::Approx(1));
+  for (const auto& line : lines)
+    CHECK(line.u == doctest::Approx(0.001 * std::sqrt(kMachines / (kMachines - 1.0))).epsilon(1e-6));
 }
 
 TEST_CASE("only machines that are in all three samples are compared") {

@@ -212,8 +212,14 @@ TEST_CASE("influences are declared; an effect that acts makes its influence mode
   machine.components[5].e_max = 1e-6, machine.head.sd_b_rad = 4e-6, machine.probe.sd_mm.z = 1e-4;
   for (const char* of_the_file : {"geometry", "head indexing", "probe repeatability"})
     CHECK(status(machine, of_the_file) == "modelled");
-  machine.components[5].e_max = 0, machine.squareness_bwz_rad = 1e-5;
-  CHECK(status(machine, "geometry") == "modelled");
+  machine.components[5].e_max = 0;
+  for (double Machine::*squareness :
+       {&Machine::squareness_cwy_rad, &Machine::squareness_bwz_rad, &Machine::squareness_awz_rad}) {
+    machine.*squareness = 1e-5;
+    CHECK(status(machine, "geometry") == "modelled");
+    machine.*squareness = 0;
+    CHECK(status(machine, "geometry") == "not modelled");
+  }
   CHECK(status(machine, "operator") == "not modelled");
   CHECK(status(machine, "part temperature") == "not modelled");
   CHECK(status(machine, "vibration and outliers") == "not modelled");
@@ -255,6 +261,13 @@ TEST_CASE("a coverage that is asked for gives its intervals beside those of 95 %
   CHECK(report.interval->coverage == 0.5);
   CHECK(report.interval->symmetric.high - report.interval->symmetric.low == doctest::Approx(0.5));
   CHECK(*report.ucl - *report.lcl == doctest::Approx(0.95));
+  // Of an angle it is in degrees, as is the uncertainty of each source: 5 mrad are 0.2865 degrees.
+  const RunResult turned = run_of({samples(1, 1, {}, ramp(1, 1e-5))}, 1000);
+  const BudgetRuns runs{{{"geometry", turned}}, turned, turned};
+  const auto angle = characteristic_reports(length_and_angle(), turned, {}, &runs, 0.5)[0];
+  CHECK(angle.interval->symmetric.high - angle.interval->symmetric.low == doctest::Approx(0.28648).epsilon(1e-4));
+  CHECK(angle.budget.at(0).u == doctest::Approx(angle.summary.u));
+  CHECK(angle.alignment_split.at(0).u == doctest::Approx(angle.summary.u));
 }
 
 TEST_CASE("a bound makes an influence bounded, unless it is modelled; the workpiece file goes first") {

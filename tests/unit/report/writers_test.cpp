@@ -213,6 +213,8 @@ TEST_CASE("an interval of another coverage is shown when it was asked for") {
   CHECK(text.find("symmetric 99 %") != std::string::npos);
   CHECK(text.find("-0.0100 to +0.0120") != std::string::npos);
   CHECK(text.find("-0.0090 to +0.0100") != std::string::npos);
+  CHECK(written("html", r).find("<td class=\"n\">-0.0100 to +0.0120</td><td class=\"n\">-0.0090 to +0.0100</td>") !=
+        std::string::npos);
 }
 
 TEST_CASE("a page shows the table and the distribution of each characteristic") {
@@ -229,6 +231,7 @@ TEST_CASE("a page shows the table and the distribution of each characteristic") 
   CHECK(page.find("<block>") == std::string::npos);
   CHECK(page.find("END1, END2: LEN (DISTB)") != std::string::npos);
   CHECK(page.find("99.8 %") != std::string::npos);
+  CHECK(page.find("<td class=\"n\">-0.0040</td><td class=\"n\">+0.0042</td>") != std::string::npos);
   CHECK(count("<svg") == 1);
   CHECK(count("fill-opacity=\"0.75\"") == 3);  // bars whose middle is between LCL and UCL
   CHECK(count("fill-opacity=\"0.3\"") == 2);
@@ -236,6 +239,10 @@ TEST_CASE("a page shows the table and the distribution of each characteristic") 
   CHECK(page.find("lost: line 77: BORE") != std::string::npos);
   CHECK(page.find("part temperature") != std::string::npos);
   CHECK(page.find("<script") == std::string::npos);
+  r.characteristics[0].unit = "deg";  // from -21.6 to 21.6 seconds of arc
+  CHECK(written("html", r).find("value on a machine minus value, arcsec") != std::string::npos);
+  CHECK(written("html", r).find(">20</text>") != std::string::npos);
+  r.characteristics[0].unit = "mm";
   r.characteristics[0].lower = 490;  // too far away to be drawn
   const std::string far = written("html", r);
   CHECK(far.find("stroke-dasharray") == far.rfind("stroke-dasharray"));
@@ -295,11 +302,16 @@ TEST_CASE("decisions: zones, limits that no value meets, and rows without one") 
   RunReport r = report();
   r.characteristics.resize(4, length());
   CharacteristicReport &zone = r.characteristics[1], &narrow = r.characteristics[2];
+  r.characteristics[0].decision->lower = 499.99334, r.characteristics[0].decision->upper = 500.00666;
+  r.characteristics[3].summary.u_error = 1e-6;
   zone.reference = 0, zone.lower = std::nullopt, zone.decision = {Conformity::undecided, 0.0046, {}, 0.0004, 2.44};
   narrow.decision = {Conformity::does_not_conform, {}, {}, {}, std::numeric_limits<double>::infinity()};
   r.characteristics[3].decision = std::nullopt;
   const std::string text = written("text", r), page = written("html", r);
   INFO(text);
+  // Rounded inwards: what is printed is accepted.
+  CHECK(text.find("  499.9934 to 500.0066  conforms  ") != std::string::npos);
+  CHECK(text.find("Monte Carlo error of u: 2.2 % (standard error, the largest of the table)") != std::string::npos);
   CHECK(text.find("    0.0000  up to 0.0004          undecided         2.4\n") != std::string::npos);
   CHECK(text.find("  500.0000  none                  does not conform    -\n") != std::string::npos);
   CHECK(page.find("<h2>Decisions</h2>") != std::string::npos);
@@ -318,7 +330,7 @@ TEST_CASE("decisions: zones, limits that no value meets, and rows without one") 
 TEST_CASE("a row that rests on some of the machines says of how many") {
   RunReport r = report();
   CharacteristicReport& c = r.characteristics[0];
-  c.evaluated = 400, c.elsewhere = 600;
+  c.evaluated = 400, c.elsewhere = 595, c.trapped = 5;
   c.reference = c.lcl = c.ucl = std::nullopt;
   const std::string text = written("text", r);
   INFO(text);
@@ -327,6 +339,7 @@ TEST_CASE("a row that rests on some of the machines says of how many") {
   CHECK(j["reference"].is_null());
   CHECK(j["lcl"].is_null());
   CHECK(j["evaluated"] == 400);
+  CHECK(j["trapped"] == 5);
 }
 
 TEST_CASE("an uncertainty that is rounding asks for no decimals") {
@@ -348,6 +361,8 @@ TEST_CASE("an uncertainty that is not known asks for no decimals and has no inte
   c.alignment_split = {{"alignment", 0, 0}, {"feature", 0, 0}};
   for (const char* writer : {"text", "html"}) CHECK(written(writer, r).find("alignment") == std::string::npos);
   const Json json = Json::parse(written("json", r))["characteristics"][0];
+  CHECK(text.find("62 %") == std::string::npos);
+  for (const char* name : {"geometry", "head", "probe"}) CHECK(json["contributions"][name].is_null());
   for (const char* key : {"budget", "alignment_split"})
     for (const Json& line : json[key]) CHECK((line["share"].is_null() && line["u"].is_null()));
 }
@@ -357,6 +372,12 @@ TEST_CASE("a share that rounds to nothing has no sign") {
   r.characteristics[0].budget = {{"probe", 1, 0.001}};
   r.characteristics[0].alignment_split = {{"alignment", -2e-5, 1e-6}, {"feature", 1.00002, 0.001}};
   for (const char* writer : {"text", "html"}) CHECK(written(writer, r).find("-0.0 %") == std::string::npos);
+  r.characteristics[0].budget = {{"exx", 0.997, 0.001}, {"probe", 0.003, 5e-5}};
+  for (const char* writer : {"text", "html"}) {
+    const std::string shares = written(writer, r);
+    CHECK(shares.find("99.7 %") != std::string::npos);
+    CHECK(shares.find("0.3 %") != std::string::npos);
+  }
 }
 
 TEST_CASE("a report without characteristics says so") {
