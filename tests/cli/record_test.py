@@ -73,6 +73,10 @@ with tempfile.TemporaryDirectory() as folder:
     check("temperature_compensation" not in said, "without a workpiece nothing is compensated")
     varied = pathlib.Path(folder) / "varied.dmi"
     text = PROGRAM.read_text()
+    varied.write_text(text.replace("seed 1\n", "seed 2\n"))
+    done = subprocess.run([ABBE, "record", str(varied), "-o", str(out)], capture_output=True, text=True)
+    seeded = [normal_error_um(b) - normal_error_um(a) for a, b in zip(plain, rows(out))]
+    check(done.returncode == 0 and seeded == elsewhere, "the seed of the program chooses the machine too")
     varied.write_text(text[:text.rindex("PTMEAS")] + "SNSET/APPRCH,2.5\n" + text[text.rindex("PTMEAS"):])
     done = subprocess.run([ABBE, "record", str(varied), "-o", str(out)], capture_output=True, text=True)
     check(done.returncode == 0 and "# approach_mm" not in out.read_text() and "# retract_mm: 3" in out.read_text(), "what changed is not said")

@@ -131,9 +131,11 @@ class JUnit(harness.Case):
         folder = "a&b <'\"> \u00e4"
         text = "$$! machines 50\n$$! expect TA(LEN) u <= 0\n$$! expect TA(LEN) u >= 0\n" + LENGTH
         self.write(f"{folder}/length.dmi", text)
+        self.write(f"{folder}/other.dmi", "$$! expect TA(LEN) u\n" + LENGTH)   # cannot be read: it fails
         self.abbe("test", folder, "--junit", "out.xml", code=1)
         root = ElementTree.parse(self.folder / "out.xml").getroot()
-        self.assertEqual((root.tag, root.get("tests"), root.get("failures")), ("testsuites", "2", "1"))
+        self.assertEqual((root.tag, root.get("tests"), root.get("failures")), ("testsuites", "3", "2"))
+        self.assertEqual([(s.get("tests"), s.get("failures")) for s in root], [("2", "1"), ("1", "1")])
         suite = root.find("testsuite")
         self.assertEqual(suite.get("name"), f"{folder}/length.dmi")
         failed, passed = suite.findall("testcase")
