@@ -340,8 +340,14 @@ class Branches(harness.Case):
         self.assertIn("TA(BIG) value: there is none, because a condition sends the error-free machine past it", done.stdout)
 
     def test_blocks_of_machines_join_what_paths_evaluate(self):
+        stops = "IF/(D .GT. 10.0003)\nD=ASSIGN/1/(D-D)\nENDIF\n"
+        self.write("branches.dmi", BRANCHES.replace("T(BIG)", stops + "T(BIG)", 1))
         report = self.run_json("branches.dmi", "--digits", 1)
-        self.assertEqual(sum(c["evaluated"] for c in report["characteristics"]), report["machines"]["used"])
+        stopped = len(report["traps"])
+        self.assertGreater(stopped, 10)
+        self.assertEqual(len({t["machine"] for t in report["traps"]}), stopped)   # they are counted on from block to block
+        self.assertEqual([c["trapped"] for c in report["characteristics"]], [stopped, stopped])
+        self.assertEqual(sum(c["evaluated"] for c in report["characteristics"]) + stopped, report["machines"]["used"])
 
 
 class Refusals(harness.Case):
