@@ -161,7 +161,9 @@ TEST_CASE("a characteristic that next to no machine reaches is lost, with the re
 TEST_CASE("an effect left in shifts the mean, corrected it leaves only its uncertainty") {
   // A tip 2 um larger than assumed in radius moves both touches outwards: the length reads 4 um long.
   Machine with = machine();
-  with.effects = {{"probe.tip_radius", {{"amplitude_um", {2, 0.5, ""}}}}};
+  with.effects = {{"probe.tip_radius", {{"amplitude_um", {2, 0.5, ""}}}},
+                  // the length lies along y: each effect has a share of its own
+                  {"machine.scale", {{"scale_um_per_m", {10, 1, ""}}, {"axis", {0, 0, "x"}}}}};
   StudyOptions options = few(400);
   const auto figures = [&](const Machine& m) {
     const Study study = run_study(length_plan(), m, options, length_source());
@@ -177,8 +179,11 @@ TEST_CASE("an effect left in shifts the mean, corrected it leaves only its uncer
   // 2 x 0.5 um of the parameter, independent of all else: the mean of 400 draws lies within 4 of its errors.
   CHECK(std::fabs(corrected.summary.mean - without.summary.mean) < 4 * 0.001 / std::sqrt(400));
   CHECK(corrected.summary.u > without.summary.u);
-  CHECK(left_in.contributions.back().name == "probe.tip_radius");
-  CHECK(left_in.contributions.back().share == doctest::Approx(corrected.contributions.back().share).epsilon(1e-9));
+  REQUIRE(left_in.contributions.size() == 5);
+  CHECK(left_in.contributions[3].name == "probe.tip_radius");
+  CHECK(left_in.contributions[3].share > 0);
+  CHECK(left_in.contributions[3].share == doctest::Approx(corrected.contributions[3].share).epsilon(1e-9));
+  CHECK(left_in.contributions[4].share == 0);
 }
 
 TEST_CASE("an effect that moves no touch is told, and no influence counts as modelled by it") {
