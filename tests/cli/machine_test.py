@@ -109,6 +109,7 @@ class Machine(harness.Case):
 
     def test_show_draws_the_state_and_the_test(self):
         text = self.machine("show", PORTAL)
+        worst_of = {}
         for test in ("E0", "E150"):
             lines = [line for line in self.machine_json("show", PORTAL)["lines"] if line["test"] == test]
             after = text[text.index(f"Its test {test} after ISO 10360-2:2009"):].splitlines()[1:]
@@ -121,6 +122,13 @@ class Machine(harness.Case):
                 row = next(r for r in after if r.split()[:2] == [mark, line["name"]])
                 for error in line["error_um"]:
                     self.assertIn(f"{error:.2f}", row)
+                worst = max(abs(error) / mpe for error, mpe in zip(line["error_um"], line["mpe_um"]))
+                self.assertEqual(float(row.split()[-1]), round(worst, 2))
+                worst_of[test, line["name"]] = worst
+        # One machine alone is the median of those that are screened.
+        for line in self.machine_json("screen", PORTAL, "--machines", 1)["lines"]:
+            for figure in line["error_over_mpe"].values():
+                self.assertAlmostEqual(figure, worst_of[line["test"], line["name"]], delta=1e-9)
         state = self.machine_json("show", PORTAL)["error_state"]
         corner = [f"{state[f'd_{a}_um'][10][10][10]:.2f}" for a in AXES]
         rows = text[text.index("Its error state"):text.index("Its test E0")].splitlines()
@@ -133,6 +141,9 @@ class Machine(harness.Case):
         self.assertTrue(0.34 < counts["share_accepted"] < 0.42, counts)
         self.assertEqual(counts["used"] + counts["failed_mpe"] + counts["too_small"], counts["generated"])
         self.assertEqual([m["code"] for m in screening["messages"]], ["W0416"])
+        for line in screening["lines"]:
+            shares = line["error_over_mpe"]
+            self.assertTrue(0 < shares["median"] < shares["p95"] < shares["largest"] <= 1, line)
         suggested = screening["suggested_e_max_factor"]
         self.assertTrue(0.6 < suggested["share_accepted"] < 0.75 and not suggested["largest"], suggested)
         self.assertIn(f"about {100 * suggested['share_accepted']:.0f} % are accepted", screening["messages"][0]["help"])
