@@ -11,9 +11,11 @@
 
 #include "engine/diagnose/findings/belief.hpp"
 #include "engine/diagnose/findings/locate.hpp"
+#include "engine/diagnose/model/precision.hpp"
 #include "engine/diagnose/planning/question.hpp"
 #include "engine/effects/noise/noise.hpp"
 #include "engine/math/units.hpp"
+#include "engine/run/effect_set.hpp"
 #include "engine/run/recorded/logged.hpp"
 
 namespace abbe::diagnose {
@@ -256,13 +258,41 @@ std::string to_number_runs(const Case& c, const SearchResult& result, const Diag
   return "All files have the same run, and what is new in a file, or gone, is looked for from run to run: give each file a run of its own in the column run, which costs no measurement.";
 }
 
+/// No recording is searched for the patterns of the machine file that no effect makes: of one that was mended its opposite
+/// is found, and some name looks like that. It explains as well where it leaves no more than the sizes that are free in what was
+/// found take up by chance: chi-squared, and two of its standard deviations.
+std::string to_take_out_patterns(const Case& c, const SearchResult& result) {
+  std::vector<EffectSetting> patterns;
+  std::set<std::string> names;
+  for (const EffectSetting& of_file : c.machine->effects)
+    if (of_file.name.starts_with("empirical.")) patterns.push_back(of_file), names.insert(of_file.name);
+  const std::vector<const Matrix*> found = signatures_of(c, result);
+  if (patterns.empty() || found.empty()) return "";
+  const EffectSet they(patterns, EffectUse::left_in, c.machine->name);
+  LinearModel without = c.model;
+  for (std::size_t k = 0; k < c.rows.size(); ++k) {
+    const RecordedTouch& touch = c.touches.touches[c.rows[k]];
+    without.y(static_cast<Eigen::Index>(k)) += kUmPerMm * dot(touch.scene.normal, they.estimate(touch));
+  }
+  const LinearModel beside_found = with_free(c.model, found);
+  const auto left = [&](const LinearModel& m) {
+    const Precision::Seen y = Precision(m, result.hyper).y();
+    return inner(y, y)(0, 0);
+  };
+  const auto sizes = double(beside_found.free.cols() - c.model.free.cols());
+  if (left(without) > left(beside_found) + sizes + 2 * std::sqrt(2 * sizes)) return "";
+  return fmt::format(
+      "A machine that has no longer what its file has of {} explains the touches as well: if it was mended, take that out of the machine file and diagnose again, which costs no measurement.",
+      fmt::join(names, " and "));
+}
+
 }  // namespace
 
 std::string otherwise(const Case& c, const SearchResult& result, const Diagnosis& told) {
   std::vector<std::string> sentences = {to_know_qualifications(c, result), to_number_runs(c, result, told),
-                                        to_part_runs(c, result),           to_know_sizes(c, result),
-                                        to_know_the_material(c, result),   besides_sizes(c, result, told),
-                                        to_record_digits(c, told)};
+                                        to_take_out_patterns(c, result),   to_part_runs(c, result),
+                                        to_know_sizes(c, result),          to_know_the_material(c, result),
+                                        besides_sizes(c, result, told),    to_record_digits(c, told)};
   std::erase(sentences, "");
   return fmt::format("{}", fmt::join(sentences, " "));
 }

@@ -67,3 +67,17 @@ TEST_CASE("files of one run hide what is new in one of them") {
   for (RecordedTouch& touch : p.c.touches.touches) touch.scene.run = 1 + touch.file;
   CHECK(p.says(kDoubted).find(told) == std::string::npos);
 }
+
+TEST_CASE("what explains a mismatch may be a pattern of the machine file that is there no more") {
+  LeavesMore p;
+  const std::string told = "no longer what its file has of empirical.curve";
+  CHECK(p.says(kDoubted).find(told) == std::string::npos);
+  const auto pattern_of = [](double
+                                 um) {  // the same along every normal, as the wrong radius of the tip that was planted
+    return EffectSetting{"empirical.curve", {{"from", {-1, 0, {}}}, {"to", {-0.5, 0, {}}}, {"r15_um", {um, 0, {}}}}};
+  };
+  p.machine.effects = {pattern_of(1), pattern_of(-3)};
+  CHECK(p.says(kDoubted).find(told) != std::string::npos);
+  p.machine.effects = {pattern_of(-1)};
+  CHECK(p.says(kDoubted).find(told) == std::string::npos);
+}
