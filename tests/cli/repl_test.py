@@ -199,6 +199,14 @@ class Repl(harness.Case):
         out = self.session(sensors + ".compare A B\n", "--machine", "perfect.json")
         ratios = next(line for line in out.splitlines() if line.startswith("B / A")).split()[3:]
         self.assertEqual(ratios[:3], 3 * ["-"])
+        # With the scatter of the probe alone a length has that of its two touches: 1.96 times the root of 2 times 0.5 um are 1.39 um.
+        # Of 50 machines the half of the interval is known to some 15 %: it is neither the whole nor another unit.
+        machine["probe"]["sd_um"] = [0.5, 0.5, 0.5]
+        self.write("scatters.json", json.dumps(machine))
+        out = self.session("S(A)=SNSDEF/PROBE,INDEX,POL,0,0,0,0,-1,100,4\n.sensor A\n", "--machine", "scatters.json")
+        row = next(line.split() for line in out.splitlines() if line.startswith("A "))
+        for u95_um in row[7:10]:
+            self.assertAlmostEqual(float(u95_um), 1.39, delta=0.6)
 
     def test_levers_are_those_of_the_machine(self):
         # At mid travel the tip of the lever of Z stands across Z by the mount's offset and the tip's: mount (25, 40), machine file.
