@@ -304,15 +304,6 @@ class Variants {
   std::optional<Planned> planned_;
 };
 
-/// The earlier variant of the same explanation that has the same columns: the two differ in what has no influence
-/// here. -1: none.
-int repeated(const Variant& variant, const Explanation& of, const std::vector<Variant>& variants) {
-  for (const int k : of.variants) {
-    if (same_columns(variants[k].signature, variant.signature)) return k;
-  }
-  return -1;
-}
-
 /// A variant stands for what another one with the same columns stands for too, where nothing lies between: no touch
 /// tells the values apart.
 void cover(Variant& variant, const Variant& same) {
@@ -372,15 +363,19 @@ void add_effect(const Effect& effect, const RecordedTouches& t, const std::vecto
   const Variants variants(effect, grids, t, rows);
   const std::vector<Variant> in_all = with_beginnings(by_directions(by_groups(settings(effect, grids), effect), grids),
                                                       effect, share_of_longest_file(t, rows));
+  ColumnsSeen seen;
   for (Variant& variant : with_changes(in_all, effect, later_runs(t, rows))) {
     variant.explanation = static_cast<int>(out.list.size());
     variants.fill(variant);
     if (variant.signature.cols() == 0) continue;
-    if (const int before = repeated(variant, explanation, out.variants); before >= 0) {
+    // Two with the same columns differ in what has no influence here.
+    if (const int before = seen.find(variant.signature, out.variants); before >= 0) {
       cover(out.variants[before], variant);
       continue;
     }
-    explanation.variants.push_back(static_cast<int>(out.variants.size()));
+    const auto number = static_cast<int>(out.variants.size());
+    seen.add(variant.signature, number);
+    explanation.variants.push_back(number);
     out.variants.push_back(std::move(variant));
   }
   share_belief(explanation, out.variants);

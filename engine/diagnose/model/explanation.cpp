@@ -45,9 +45,45 @@ void share_belief(const Explanation& e, std::vector<Variant>& variants) {
   }
 }
 
+namespace {
+
+struct WeightedSum {
+  double value = 0;
+  double of_sizes = 0;  ///< the same of the absolute values: what rounding is in proportion to
+};
+
+/// Each number with a weight of its own below 1, so that no order and no sign is lost.
+WeightedSum weighted_sum(const Matrix& columns) {
+  constexpr double kGolden = 0.6180339887498949;
+  WeightedSum sum;
+  double weight = 0;
+  for (const double x : columns.reshaped()) {
+    weight += kGolden;
+    if (weight >= 1) weight -= 1;
+    sum.value += weight * x, sum.of_sizes += weight * std::abs(x);
+  }
+  return sum;
+}
+
+}  // namespace
+
+void ColumnsSeen::add(const Matrix& columns, int number) {
+  number_by_sum_.emplace(weighted_sum(columns).value, number);
+}
+
+int ColumnsSeen::find(const Matrix& columns, const std::vector<Variant>& variants) const {
+  constexpr double kRounding = 1e-10;
+  const WeightedSum sum = weighted_sum(columns);
+  const double margin = kSameColumns_um * double(columns.size()) + kRounding * sum.of_sizes;
+  int found = -1;
+  const auto end = number_by_sum_.upper_bound(sum.value + margin);
+  for (auto at = number_by_sum_.lower_bound(sum.value - margin); at != end; ++at)
+    if ((found < 0 || at->second < found) && same_columns(variants[at->second].signature, columns)) found = at->second;
+  return found;
+}
+
 bool same_columns(const Matrix& a, const Matrix& b, double less_than_um) {
   if (a.cols() != b.cols() || a.rows() != b.rows()) return false;
-  // Most differ in their first rows.
   return std::equal(a.data(), a.data() + a.size(), b.data(),
                     [&](double x, double y) { return std::abs(x - y) < less_than_um; });
 }

@@ -4,6 +4,7 @@
 // coefficients are drawn together.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -69,8 +70,20 @@ struct Variant {
 /// in all runs and a change from one run to the next are two, and so are those of two styli or two axes.
 bool alike(const Variant&, const Variant&);
 
+inline constexpr double kSameColumns_um = 1e-9;
 /// Whether both have the same columns, so that no touch tells one from the other: none differs by this much anywhere, um.
-bool same_columns(const Matrix&, const Matrix&, double less_than_um = 1e-9);
+bool same_columns(const Matrix&, const Matrix&, double less_than_um = kSameColumns_um);
+
+/// Finds the same columns among many without comparing all of them: where columns are the same, so is a sum over them.
+class ColumnsSeen {
+ public:
+  void add(const Matrix& columns, int number);
+  /// The least number of those with the same columns, of which `variants` has the columns by number; -1: none.
+  int find(const Matrix& columns, const std::vector<Variant>& variants) const;
+
+ private:
+  std::multimap<double, int> number_by_sum_;
+};
 
 struct Explanation {
   std::string name;                ///< of the effect, or "OTHER time"

@@ -64,3 +64,22 @@ TEST_CASE("columns are the same where none differs anywhere") {
   CHECK(same_columns(a, b, 1e-6));
   CHECK_FALSE(same_columns(a, a.leftCols(1), 1e-6));
 }
+
+TEST_CASE("columns seen before are found, the first of them, and others with the same sum are not") {
+  std::vector<Variant> variants(5);
+  variants[1].signature = Matrix::Constant(40, 2, 1e3 / 3);
+  variants[2].signature = Matrix::Zero(40, 2);
+  variants[2].signature(39, 1) = variants[1].signature.sum();
+  variants[3].signature = variants[1].signature;
+  variants[3].signature.array() += 0.9e-9;  // the same, as far as any touch tells
+  variants[4].signature = -variants[1].signature;
+  ColumnsSeen seen;
+  for (const int k : {3, 2, 1}) seen.add(variants[k].signature, k);
+  CHECK(seen.find(variants[1].signature, variants) == 1);
+  CHECK(seen.find(variants[3].signature, variants) == 1);
+  CHECK(seen.find(variants[2].signature, variants) == 2);
+  CHECK(seen.find(variants[4].signature, variants) == -1);
+  variants[4].signature = variants[1].signature;
+  variants[4].signature(0, 0) += 1.1e-9;
+  CHECK(seen.find(variants[4].signature, variants) == 3);  // 0.2e-9 from it there, and 0.9e-9 elsewhere
+}
