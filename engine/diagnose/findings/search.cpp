@@ -84,7 +84,7 @@ Round round(const Case& c, const EvidenceSearch& search, int number) {
   begins(c.options.progress,
          number > 0 ? "simulated recordings without what was found" : "simulated recordings without a mismatch");
   r.null = search.bootstrap(r.evidence.statistic, law, {kReplicates, alarm_of(number)},
-                            seed_of(c.options.seed, static_cast<std::uint64_t>(number)));
+                            seed_of(c.options.seed, static_cast<std::uint64_t>(number)), c.options.threads);
   std::vector<double> simulated;
   for (const Evidence& e : r.null) simulated.push_back(e.statistic);
   r.p = tail_probability(r.evidence.statistic, std::move(simulated));

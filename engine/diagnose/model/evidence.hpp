@@ -77,8 +77,9 @@ class EvidenceSearch {
 
   /// Evidence of simulated recordings without mismatch: as many as usual; fewer once enough of them are as extreme
   /// as `observed` to know that it is nothing rare (Besag & Clifford, Biometrika 78, 1991); and up to six times as
-  /// many where their p-value is so near the level that its own chance would decide.
-  std::vector<Evidence> bootstrap(double observed, const NoiseLaw&, const Replicates&, std::uint64_t seed) const;
+  /// many where their p-value is so near the level that its own chance would decide. The same for any number of threads.
+  std::vector<Evidence> bootstrap(double observed, const NoiseLaw&, const Replicates&, std::uint64_t seed,
+                                  int threads) const;
 
   /// What the ensembles see of recordings, one a column; in the order of the ensembles.
   std::vector<Ensemble::Seen> seen(const Matrix& recordings) const;

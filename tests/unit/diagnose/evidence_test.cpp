@@ -212,7 +212,7 @@ TEST_CASE("p-values without a mismatch are uniform") {
     const EvidenceSearch search(m, h, all);
     const double observed = search.evidence().statistic;
     std::vector<double> simulated;
-    for (const Evidence& e : search.bootstrap(observed, {}, {300, 0}, 5)) simulated.push_back(e.statistic);
+    for (const Evidence& e : search.bootstrap(observed, {}, {300, 0}, 5, 2)) simulated.push_back(e.statistic);
     const double p = tail_probability(observed, simulated);
     below1 += p < 0.01, below5 += p<0.05, above50 += p> 0.5;
   }
@@ -251,7 +251,7 @@ TEST_CASE("tails of the noise are no mismatch where they are simulated") {
     const NoiseLaw law(search.residuals_beside(spots.variants[static_cast<std::size_t>(likeliest)]));
     const auto p = [&](const NoiseLaw& simulated_with) {
       std::vector<double> simulated;
-      for (const Evidence& e : search.bootstrap(observed, simulated_with, {200, 0}, 5))
+      for (const Evidence& e : search.bootstrap(observed, simulated_with, {200, 0}, 5, 2))
         simulated.push_back(e.statistic);
       return tail_probability(observed, simulated);
     };
@@ -267,10 +267,10 @@ TEST_CASE("where the decision is near, more recordings are simulated") {
   h.noise = Vector::Ones(1);
   const EvidenceSearch search(m, h, two(40));
   const auto number_at = [&](double observed, double level) {
-    return search.bootstrap(observed, {}, {300, level}, 1).size();
+    return search.bootstrap(observed, {}, {300, level}, 1, 1).size();
   };
   std::vector<double> statistics;
-  for (const Evidence& e : search.bootstrap(1e9, {}, {3000, 0}, 1)) statistics.push_back(e.statistic);
+  for (const Evidence& e : search.bootstrap(1e9, {}, {3000, 0}, 1, 2)) statistics.push_back(e.statistic);
   std::sort(statistics.begin(), statistics.end());
   const double at1 = statistics[2970], middle = statistics[1500];
   CHECK(number_at(at1, 0) == 300);
@@ -279,6 +279,10 @@ TEST_CASE("where the decision is near, more recordings are simulated") {
   CHECK(number_at(at1, 0.001) == 300);  // ten times as probable as the level
   CHECK(number_at(middle, 0.01) < 100);
   CHECK(number_at(1e3, 0.01) == 300);
+  // Threads simulate ahead, and what was not needed counts no more than if it had not been.
+  for (const double observed : {at1, middle, statistics[2900], 1e3})
+    for (const int threads : {2, 3, 16})
+      CHECK(search.bootstrap(observed, {}, {300, 0.01}, 1, threads).size() == number_at(observed, 0.01));
 }
 
 TEST_CASE("four in five recordings show what the search is said to detect") {
@@ -290,7 +294,7 @@ TEST_CASE("four in five recordings show what the search is said to detect") {
   const Explanations all = two(n);
   const EvidenceSearch search(m, h, all);
   std::vector<double> alone;
-  for (const Evidence& e : search.bootstrap(1e9, {}, {2000, 0}, 4)) alone.push_back(e.statistic);
+  for (const Evidence& e : search.bootstrap(1e9, {}, {2000, 0}, 4, 2)) alone.push_back(e.statistic);
   std::sort(alone.begin(), alone.end());
   const double alarm = alone[1980];
   const Matrix shift = all.variants[0].signature / all.variants[0].signature.norm();
