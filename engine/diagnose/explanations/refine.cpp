@@ -94,7 +94,7 @@ std::vector<Variant> thirds_of_runs(const Variant& whole, const std::vector<Late
   std::vector<Variant> list(parts.size());
   for (std::size_t k = 0; k < parts.size(); ++k) {
     list[k].explanation = whole.explanation;
-    list[k].group = whole.group;
+    list[k].group = whole.group, list[k].axis = whole.axis;
     list[k].change = whole.change;
     if (whole.change.any()) list[k].change.first() = parts[k].from_run;
     list[k].runs = parts[k].runs;
