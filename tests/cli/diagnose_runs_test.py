@@ -15,6 +15,9 @@ class DiagnoseRuns(harness.Case):
         self.abbe("record", PROGRAM, "--machine", MACHINE, "--run", run, "-o", name, *options)
         return name
 
+    def days_later(self, name, days):
+        return self.changed(self.folder / name, lambda row: row | {"time_s": str(float(row["time_s"]) + 86400 * days)}, f"day_{days}_{name}")
+
     def diagnosis(self, *args):
         return json.loads(self.abbe("diagnose", *args, "--machine", MACHINE, "--format", "json").stdout)
 
@@ -374,9 +377,8 @@ class DiagnoseRuns(harness.Case):
     def test_the_same_warm_up_in_each_file_is_one(self):
         """Three mornings: in one go it would be three drifts, or a swing of the room. The nights between may be logged or not."""
         warm = ("--with", "thermal.drift:amplitude_um=8,direction=x,tau_s=60")
-        days = [self.folder / self.record(day, *warm, "--seed", 5, "--setup", day) for day in (1, 2, 3)]
-        apart = [self.changed(path, lambda row, day=day: row | {"time_s": str(float(row["time_s"]) + 86400 * day)}, f"of_{path.name}")
-                 for day, path in enumerate(days)]
+        days = [self.record(day, *warm, "--seed", 5, "--setup", day) for day in (1, 2, 3)]
+        apart = [self.days_later(path, day) for day, path in enumerate(days)]
         for files in (days, apart):
             effect = self.diagnosis(*files)["effects"][0]
             self.assertIn("thermal.drift", effect["members"])
@@ -385,6 +387,17 @@ class DiagnoseRuns(harness.Case):
             for parameter, planted in (("amplitude_um", 8), ("tau_s", 60)):
                 self.assertLess(drift[parameter]["interval95"][0], planted)
                 self.assertGreater(drift[parameter]["interval95"][1], planted)
+
+    def test_a_warm_up_on_one_day_of_several_is_of_that_day(self):
+        """In the whole time it was a quarter of a swing that nothing else follows: of the room's temperature control, with 0.9."""
+        warm = {2: ("--with", "thermal.drift:amplitude_um=12,direction=x,tau_s=60")}
+        days = [self.days_later(self.record(day, *warm.get(day, ()), "--seed", 6, "--setup", day), day) for day in (1, 2, 3)]
+        effect = self.diagnosis(*days)["effects"][0]
+        self.assertEqual((effect["members"], effect["new_in_run"], effect["gone_in_run"]), (["thermal.drift"], [2], [3]))
+        self.assertIn("Its clock begins with the file of that run.", effect["sentence"])
+        for parameter, planted in (("amplitude_um", 12), ("tau_s", 60)):
+            self.assertLess(effect["parameters"][parameter]["interval95"][0], planted)
+            self.assertGreater(effect["parameters"][parameter]["interval95"][1], planted)
 
     def test_what_is_there_in_all_runs_is_not_new(self):
         lobing = ("--with", "probe.pretravel_lobing:amplitude_um=3")

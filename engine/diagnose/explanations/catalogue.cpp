@@ -152,10 +152,43 @@ std::optional<double> share_of_longest_file(const RecordedTouches& t, const std:
   return longest_s / lasts_s(t);
 }
 
-/// What settles, once in the whole time and, of several files, anew in each. There the time constants that are tried,
-/// shares of the whole time, are shares of the longest file: a night may lie between two.
+/// One of several files by the runs that it has, and no other file.
+struct FileOfRuns {
+  RunChange only;  ///< what acts in it alone
+  Cell runs;       ///< the run that this begins or ends with
+};
+
+/// Nothing where files share runs, or where there are more of them than days are told apart by.
+std::vector<FileOfRuns> files_of_runs(const RecordedTouches& t, const std::vector<int>& rows,
+                                      const std::vector<LaterRun>& later) {
+  constexpr std::size_t kMost = 8;
+  std::map<int, std::pair<int, int>> runs_of;  // by file: the first and the last
+  for (const int i : rows) {
+    const int run = t.touches[i].scene.run;
+    auto& [first, last] = runs_of.try_emplace(t.touches[i].file, run, run).first->second;
+    first = std::min(first, run), last = std::max(last, run);
+  }
+  std::vector<std::pair<int, int>> runs;
+  for (const auto& [file, of_file] : runs_of) runs.push_back(of_file);
+  std::sort(runs.begin(), runs.end());
+  const auto shared = [](const auto& a, const auto& b) { return b.first <= a.second; };
+  if (runs.size() < 2 || runs.size() > kMost || std::adjacent_find(runs.begin(), runs.end(), shared) != runs.end())
+    return {};
+  std::vector<FileOfRuns> out;
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    const RunChange only{k > 0 ? runs[k].first : 0, k + 1 < runs.size() ? runs[k + 1].first : 0, true};
+    const auto at =
+        std::find_if(later.begin(), later.end(), [&](const LaterRun& run) { return run.from_run == only.first(); });
+    out.push_back({only, at->runs});
+  }
+  return out;
+}
+
+/// What settles, once in the whole time and, of several files, anew in each, or in one of them alone: a warm-up every
+/// morning, or on the day on which the air conditioning stood still. There the time constants that are tried, shares of the
+/// whole time, are shares of the longest file: a night may lie between two.
 std::vector<Variant> with_beginnings(std::vector<Variant> list, const Effect& effect,
-                                     std::optional<double> share_of_longest) {
+                                     std::optional<double> share_of_longest, const std::vector<FileOfRuns>& files) {
   const auto settles = std::find_if(effect.parameters.begin(), effect.parameters.end(),
                                     [](const EffectParameter& p) { return p.sought == Sought::time_constant; });
   if (!share_of_longest || settles == effect.parameters.end()) return list;
@@ -165,7 +198,11 @@ std::vector<Variant> with_beginnings(std::vector<Variant> list, const Effect& ef
     anew.change.in_each_file = true;
     anew.theta[constant] *= *share_of_longest;
     anew.cells[constant].low *= *share_of_longest, anew.cells[constant].high *= *share_of_longest;
-    list.push_back(std::move(anew));
+    list.push_back(anew);
+    for (const FileOfRuns& file : files) {
+      anew.change = file.only, anew.runs = file.runs;
+      list.push_back(anew);
+    }
   }
   return list;
 }
@@ -361,10 +398,12 @@ void add_effect(const Effect& effect, const RecordedTouches& t, const std::vecto
   explanation.missing = missing_of(effect, t);
   const std::vector<ParameterGrid> grids = grids_of(effect, t, least_period_um);
   const Variants variants(effect, grids, t, rows);
-  const std::vector<Variant> in_all = with_beginnings(by_directions(by_groups(settings(effect, grids), effect), grids),
-                                                      effect, share_of_longest_file(t, rows));
+  const std::vector<LaterRun> later = later_runs(t, rows);
+  const std::vector<Variant> in_all =
+      with_beginnings(by_directions(by_groups(settings(effect, grids), effect), grids), effect,
+                      share_of_longest_file(t, rows), files_of_runs(t, rows, later));
   ColumnsSeen seen;
-  for (Variant& variant : with_changes(in_all, effect, later_runs(t, rows))) {
+  for (Variant& variant : with_changes(in_all, effect, later)) {
     variant.explanation = static_cast<int>(out.list.size());
     variants.fill(variant);
     if (variant.signature.cols() == 0) continue;

@@ -122,7 +122,9 @@ void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
     if (unproven && !doubts.any() && f.probability > kDoubted) e.sentence += unless_said(out.effects, kUnproven);
     for (const std::string& note : {whose_coordinates(c, effect), whose_direction(effect), whose_clock(c, effect)})
       e.sentence += unless_said(out.effects, note);
-    if (change.in_each_file) e.sentence += " Its clock begins anew in each file.";
+    if (change.in_each_file)
+      e.sentence +=
+          change.any() ? " Its clock begins with the file of that run." : " Its clock begins anew in each file.";
     if (!looked_for)
       e.sentence +=
           " That it is gone nobody has seen: no orientation in which it was there was touched since. Touch one of them again.";
