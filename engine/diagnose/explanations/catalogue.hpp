@@ -26,19 +26,6 @@ void add_hidden(const Explanations&, Diagnosis&);
 Explanations named_explanations(const RecordedTouches&, const std::vector<int>& rows,
                                 const std::vector<std::string>& names);
 
-/// Where something may have changed between runs: in front of one of a stretch of runs.
-struct LaterRun {
-  int from_run = 0;  ///< the middle one, which stands for all
-  Cell runs;         ///< places in the order of the later runs: from low, up to high without it
-  Cell gap_s;        ///< from the last touch in front of it to its first
-
-  double between_s() const { return (gap_s.low + gap_s.high) / 2; }
-};
-/// Every run but that of the lowest number.
-std::vector<LaterRun> later_runs(const RecordedTouches&, const std::vector<int>& rows);
-/// Those of some runs, one after the other, in at most so many stretches.
-std::vector<LaterRun> in_stretches(const std::vector<LaterRun>& single, std::size_t most);
-
 /// A variant of an effect with the parameters, the group and the change of another; no columns where the effect does
 /// nothing there.
 Variant variant_like(const Variant&, const Effect&, const RecordedTouches&, const std::vector<int>& rows);

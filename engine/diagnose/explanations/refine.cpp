@@ -8,6 +8,7 @@
 
 #include "engine/diagnose/explanations/catalogue.hpp"
 #include "engine/diagnose/explanations/parameter_grid.hpp"
+#include "engine/diagnose/explanations/run_changes.hpp"
 
 namespace abbe::diagnose {
 

@@ -271,21 +271,3 @@ TEST_CASE("many runs make no more variants than few") {
     if (e.factor == Factor::run || e.factor == Factor::feature)
       for (const int b : e.variants) CHECK(all.variants[static_cast<std::size_t>(b)].signature.cols() <= 18 * 32);
 }
-
-TEST_CASE("stretches of runs hold every run once, and few runs stand for themselves") {
-  std::vector<LaterRun> single;
-  for (int k = 0; k < 20; ++k) single.push_back({10 + k, {double(k), double(k + 1)}, 100.0 * k});
-  const std::vector<LaterRun> stretches = in_stretches(single, 8);
-  REQUIRE(stretches.size() == 8);
-  CHECK(stretches.front().runs.low == 0);
-  CHECK(stretches.back().runs.high == 20);
-  for (std::size_t k = 0; k < stretches.size(); ++k) {
-    if (k > 0) CHECK(stretches[k].runs.low == stretches[k - 1].runs.high);
-    CHECK(stretches[k].from_run >= 10 + stretches[k].runs.low);
-    CHECK(stretches[k].from_run < 10 + stretches[k].runs.high);
-  }
-  const std::vector<LaterRun> few = in_stretches({single.begin(), single.begin() + 3}, 8);
-  REQUIRE(few.size() == 3);
-  for (std::size_t k = 0; k < 3; ++k)
-    CHECK((few[k].from_run == single[k].from_run && few[k].runs.high == few[k].runs.low + 1));
-}

@@ -2,7 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -44,23 +43,6 @@ TEST_CASE("an effect with a direction is sought along any, and along each axis")
   std::map<int, std::set<Eigen::Index>> columns;  // by axis
   for (const Variant& v : all.variants) columns[v.axis].insert(v.signature.cols());
   CHECK(columns == std::map<int, std::set<Eigen::Index>>{{-1, {3}}, {0, {1}}, {1, {1}}, {2, {1}}});
-}
-
-TEST_CASE("what settles begins once, in each file, or in one of several that have runs of their own") {
-  Planted at(1);
-  const auto changes = [&](int files, int runs) {
-    for (int i = 0; i < at.count(); ++i)
-      at.c.touches.touches[i].file = i * files / at.count(), at.scene(i).run = 1 + i * runs / at.count();
-    std::set<std::array<int, 3>> out;
-    for (const Variant& v : named_explanations(at.c.touches, at.c.rows, {"thermal.drift"}).variants)
-      out.insert({v.change.from, v.change.until, v.change.in_each_file ? 1 : 0});
-    return out;
-  };
-  using Changes = std::set<std::array<int, 3>>;
-  CHECK(changes(1, 3) == Changes{{0, 0, 0}});
-  CHECK(changes(3, 1) == Changes{{0, 0, 0}, {0, 0, 1}});
-  CHECK(changes(3, 3) == Changes{{0, 0, 0}, {0, 0, 1}, {0, 2, 1}, {2, 3, 1}, {3, 0, 1}});
-  CHECK(changes(2, 4) == Changes{{0, 0, 0}, {0, 0, 1}, {0, 3, 1}, {3, 0, 1}});
 }
 
 TEST_CASE("a spread of indexings is not judged by two of them") {
