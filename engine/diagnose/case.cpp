@@ -51,8 +51,9 @@ Case case_of(const Recording& recording, const Machine& machine, const DiagnoseO
   c.baseline =
       baseline_of(c.touches, machine,
                   {surfaces.value_or(Surfaces::calibrated), known ? &*known : nullptr, options.seed, options.threads});
-  if (!known && c.baseline.surfaces == Surfaces::calibrated && !options.design_only)
-    out.beyond = c.baseline.beyond = beyond_specification(c.touches, without_placement(c.baseline.model), machine);
+  if (c.baseline.surfaces == Surfaces::calibrated && !options.design_only)
+    out.worst_length = worst_length(c.touches, without_placement(c.baseline.model), machine.specification);
+  if (!known) out.beyond = c.baseline.beyond = beyond_specification(out.worst_length, machine);
   if (out.beyond) hold_to_specification(c.baseline.model);
   add_uncertainties(effects, c.touches, c.baseline);
   if (part) calibrate(*part, c.touches, c.baseline);

@@ -222,7 +222,9 @@ struct Diagnosis {
   /// What the machine does beside what was found, over what an earlier recording left open, where that is too
   /// much for the same machine.
   std::optional<double> beyond_known;
-  std::optional<LengthError> beyond;          ///< a length that no machine of the specification makes so wrong
+  /// The third worst length between touches, as a share of its MPE; none where no lengths can be compared.
+  std::optional<LengthError> worst_length;
+  std::optional<LengthError> beyond;          ///< it, where no machine of the specification makes it so wrong
   std::optional<OtherMethods> other_methods;  ///< none where nothing was judged
   std::vector<ResidualRow> residuals;
   std::vector<JudgedValue> values;  ///< of a recording of values, in its order; then there are no touches

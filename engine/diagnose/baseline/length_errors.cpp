@@ -35,7 +35,8 @@ Vector without_placement(const LinearModel& m) {
   return left;
 }
 
-LengthError worst_length(const RecordedTouches& t, const Vector& residuals_um, const Specification& specification) {
+std::optional<LengthError> worst_length(const RecordedTouches& t, const Vector& residuals_um,
+                                        const Specification& specification) {
   constexpr int kCount = 3;
   constexpr double kLeast_mm = 1;
   LengthError worst;
@@ -58,19 +59,18 @@ LengthError worst_length(const RecordedTouches& t, const Vector& residuals_um, c
         if (from == to || share(e) > share(worst)) worst = e, from = i, to = j;
       }
     }
-    if (from == to) return {};
+    if (from == to) return std::nullopt;
     used[from] = used[to] = 1;
   }
   return worst;
 }
 
-std::optional<LengthError> beyond_specification(const RecordedTouches& t, const Vector& residuals_um,
-                                                const Machine& machine) {
+std::optional<LengthError> beyond_specification(const std::optional<LengthError>& worst, const Machine& machine) {
   constexpr double kElsewhere = 1.5, kDeviations = 4;
   const double touch_mm = norm(machine.probe.sd_mm) / std::sqrt(3.0);
-  const LengthError e = worst_length(t, residuals_um, machine.specification);
-  if (std::abs(e.error_mm) <= kElsewhere * e.mpe_mm + kDeviations * std::sqrt(2.0) * touch_mm) return std::nullopt;
-  return e;
+  if (!worst || std::abs(worst->error_mm) <= kElsewhere * worst->mpe_mm + kDeviations * std::sqrt(2.0) * touch_mm)
+    return std::nullopt;
+  return worst;
 }
 
 void hold_to_specification(LinearModel& m) {

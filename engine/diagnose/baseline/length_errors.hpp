@@ -16,14 +16,14 @@ namespace abbe::diagnose {
 Vector without_placement(const LinearModel&);
 
 /// The worst length, as a share of its MPE, but for the two that are worse: one touch of dirt spoils several.
-/// Lengths of one setup, run and qualified tip, whose ends are touched along them. All 0 where there are no
+/// Lengths of one setup, run and qualified tip, whose ends are touched along them. Nothing where there are no
 /// such lengths. `residuals_um`: without_placement(), for normals are never quite along a length.
-LengthError worst_length(const RecordedTouches&, const Vector& residuals_um, const Specification&);
+std::optional<LengthError> worst_length(const RecordedTouches&, const Vector& residuals_um, const Specification&);
 
 /// That length, where it is worse than what any machine of this specification makes of it, elsewhere in its
 /// volume and with other styli than in the acceptance test: by half as much again as its MPE, and what two
 /// touches scatter by.
-std::optional<LengthError> beyond_specification(const RecordedTouches&, const Vector& residuals_um, const Machine&);
+std::optional<LengthError> beyond_specification(const std::optional<LengthError>& worst, const Machine&);
 
 /// Of a recording with such a length: larger errors of the machine than those of its specification are no explanation.
 void hold_to_specification(LinearModel&);

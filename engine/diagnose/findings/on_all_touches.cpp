@@ -26,7 +26,7 @@ std::optional<LengthError> beyond_beside_names(const Case& c, const SearchResult
   const Precision precision(likelier_ensemble(c, c.model), result.hyper_of_likelier);
   const Precision::Seen seen = precision.seen(named(c.rows, Eigen::all));
   left.y -= named * Cholesky(inner(seen, seen), 1 / (kWidest * kWidest)).solve(inner(seen, precision.y()));
-  return beyond_specification(c.touches, without_placement(left), *c.machine);
+  return beyond_specification(worst_length(c.touches, without_placement(left), c.machine->specification), *c.machine);
 }
 
 }  // namespace abbe::diagnose

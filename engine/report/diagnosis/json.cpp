@@ -113,6 +113,13 @@ Json baseline(const BaselineSummary& b) {
           {"outliers", b.outliers}};
 }
 
+Json length_error(const std::optional<LengthError>& e) {
+  if (!e) return {};
+  return {{"length_mm", number(e->length_mm)},
+          {"error_um", number(kUmPerMm * e->error_mm)},
+          {"mpe_um", number(kUmPerMm * e->mpe_mm)}};
+}
+
 Json other_methods(const OtherMethods& r) {
   return {{"chi2", {{"p", number(r.chi2_p)}}},
           {"stepwise_bic", {{"members", r.stepwise_bic}}},
@@ -182,11 +189,8 @@ std::string diagnosis_json(const Diagnosis& d, const std::string& machine) {
       {"otherwise", d.otherwise.empty() ? Json() : Json(d.otherwise)},
       {"baseline", d.touches > 0 ? baseline(d.baseline) : Json()},
       {"times_known_uncertainty", d.beyond_known ? Json(number(*d.beyond_known)) : Json()},
-      {"length_beyond_mpe",
-       d.beyond ? Json{{"length_mm", number(d.beyond->length_mm)},
-                       {"error_um", number(kUmPerMm * d.beyond->error_mm)},
-                       {"mpe_um", number(kUmPerMm * d.beyond->mpe_mm)}}
-                : Json()},
+      {"worst_length", length_error(d.worst_length)},
+      {"length_beyond_mpe", length_error(d.beyond)},
       {"rivals", d.other_methods ? other_methods(*d.other_methods) : Json()},
       {"messages", array(d.messages, [](const Diagnostic& m) {
          return Json{{"code", info(m.code).name},

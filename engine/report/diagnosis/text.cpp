@@ -268,6 +268,9 @@ std::string baseline_in_words(const Diagnosis& d) {
   if (!b.outliers.empty())
     out += fmt::format("; {} {} left out: {}", b.outliers.size(), b.outliers.size() == 1 ? "touch" : "touches",
                        fmt::join(b.outliers, ", "));
+  if (const auto& worst = d.worst_length)
+    out += fmt::format("; of lengths the third worst is off by {:.2f} um over {:.0f} mm, where the MPE is {:.2f} um",
+                       kUmPerMm * std::abs(worst->error_mm), worst->length_mm, kUmPerMm * worst->mpe_mm);
   return out;
 }
 

@@ -42,7 +42,8 @@ TEST_CASE("a length that is wrong stays wrong beside a name that makes little of
 
 TEST_CASE("a name that makes all of a length leaves nothing of it") {
   Bars p(10, 0);
-  CHECK(beyond_specification(p.c.touches, without_placement(p.c.baseline.model), p.machine));
+  CHECK(beyond_specification(worst_length(p.c.touches, without_placement(p.c.baseline.model), p.machine.specification),
+                             p.machine));
   CHECK_FALSE(beyond_beside_names(p.c, p.result));
   p.result.hyper_of_likelier.noise *= 40;  // its size is still that of the recording, whatever is usual of it
   CHECK_FALSE(beyond_beside_names(p.c, p.result));

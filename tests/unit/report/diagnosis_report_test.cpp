@@ -38,6 +38,13 @@ TEST_CASE("a recording that agrees says with which machine") {
   d.baseline.geometry_scale = 3.8;
   CHECK(says(first_sentence(d), "geometric errors are 3.8 times those of its specification, or rougher: a difference"));
   CHECK(says(diagnosis_text(d), "baseline: 3.80 times the machine's errors of its specification, noise"));
+  CHECK_FALSE(says(diagnosis_text(d), "MPE"));
+  d.worst_length = LengthError{120, -0.36e-3, 1.1e-3};
+  CHECK(
+      says(diagnosis_text(d), "; of lengths the third worst is off by 0.36 um over 120 mm, where the MPE is 1.10 um"));
+  const auto worst = nlohmann::json::parse(diagnosis_json(d, "m"))["worst_length"];
+  CHECK(worst["error_um"].get<double>() == doctest::Approx(-0.36));
+  CHECK(worst["mpe_um"].get<double>() == doctest::Approx(1.1));
   d.baseline.rougher = d.baseline.uneven = true;
   CHECK(says(diagnosis_text(d), "specification, rougher than harmonics, in part more uneven than the rest, noise"));
   d.baseline.known = true;
