@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <compare>
+#include <cstdint>
+#include <limits>
 
 #include "engine/base/files.hpp"
 #include "engine/base/numbers.hpp"
@@ -122,6 +124,16 @@ std::vector<OutputRecord> outputs_of(const Recording& recording, const plan::Pla
   return record_plan(plan, machine, one, run, source).outputs;
 }
 
+/// Every run indexes the head anew, and as often as the runs before it: its visits count on from theirs.
+void count_visits_on(Recording& recording, int runs_before) {
+  std::int64_t of_a_run = 0;
+  for (const RecordingRow& row : recording.rows) of_a_run = std::max<std::int64_t>(of_a_run, row.visit.value_or(0));
+  for (RecordingRow& row : recording.rows)
+    if (row.visit)
+      row.visit = static_cast<int>(
+          std::min<std::int64_t>(*row.visit + runs_before * of_a_run, std::numeric_limits<int>::max()));
+}
+
 }  // namespace
 
 int record_command(const RecordOptions& options) {
@@ -151,6 +163,7 @@ int record_command(const RecordOptions& options) {
   const VirtualMachines one = screened_machines(machine, run.seed, 1, 1);
   MachineRecord record = record_plan(plan, machine, one, run, program.source);
   print_messages(record.warnings);
+  count_visits_on(record.recording, run.repeat);
   for (const Rounding& rounding : roundings) {
     round_readings(record.recording, rounding.step_mm);
     record.activities[rounding.effect].moved = true;

@@ -119,11 +119,11 @@ std::vector<int> unknown_surfaces(const RecordedTouches& t, Surfaces surfaces) {
 
 /// Errors of the head by indexing visit, and of the qualified tip by stylus and orientation.
 void add_head(const RecordedTouches& t, const Machine& machine, Columns& random) {
-  std::map<std::pair<int, int>, std::vector<int>> visits;
+  std::map<int, std::vector<int>> visits;
   std::map<std::tuple<int, double, double, int>, std::vector<int>> qualified;
   for (std::size_t i = 0; i < t.touches.size(); ++i) {
     const TouchScene& s = t.touches[i].scene;
-    if (s.stylus.indexed) visits[{s.run, s.visit}].push_back(static_cast<int>(i));
+    if (s.stylus.indexed) visits[s.visit].push_back(static_cast<int>(i));
     qualified[{s.stylus.ordinal, s.stylus.head_a_rad, s.stylus.head_b_rad, s.qualification}].push_back(
         static_cast<int>(i));
   }

@@ -146,20 +146,27 @@ void keep_names(const std::vector<const Sensor*>& sensor_of, RecordedTouches& ou
 /// Senses of the axes and indexing visits follow from the sequence of touches.
 void follow_sequence(const Recording& recording, std::vector<RecordedTouch>& touches) {
   constexpr double kMoves = 0.02;  // an axis that takes this share of the way counts as moving
-  int sense[3] = {1, 1, 1}, visit = 0;
-  std::map<std::pair<int, int>, int> visits;  // every run counts its own
-  double a = 1e9, b = 1e9;
+  int sense[3] = {1, 1, 1}, turned = 0;
+  std::map<std::pair<int, int>, int> visits;  // by run, each of which may count its own, and number
+  int count = 0;
+  const RecordedTouch* before = nullptr;
   for (RecordedTouch& t : touches) {
     for (int k = 0; k < 3; ++k) {
       if (std::abs(t.scene.travel[k]) > kMoves) sense[k] = t.scene.travel[k] > 0 ? 1 : -1;
       t.scene.sense[k] = sense[k];
       t.scene.since_reversal_mm[k] = 1000;
     }
-    if (t.scene.stylus.head_a_rad != a || t.scene.stylus.head_b_rad != b) ++visit;
-    a = t.scene.stylus.head_a_rad;
-    b = t.scene.stylus.head_b_rad;
-    const std::pair logged{t.scene.run, recording.rows[t.row].visit.value_or(visit)};
-    t.scene.visit = visits.emplace(logged, static_cast<int>(visits.size())).first->second;
+    const bool stays = before && t.scene.stylus.head_a_rad == before->scene.stylus.head_a_rad &&
+        t.scene.stylus.head_b_rad == before->scene.stylus.head_b_rad;
+    if (!stays) ++turned;
+    const std::optional<int>& logged = recording.rows[t.row].visit;
+    // A log whose number stays as it was when a run begins says that the head was not indexed for it.
+    const bool goes_on = stays && logged && t.file == before->file && logged == recording.rows[before->row].visit;
+    const auto [visit, is_new] = visits.try_emplace({t.scene.run, logged.value_or(turned)}, count);
+    if (is_new && goes_on) visit->second = before->scene.visit;
+    if (is_new && !goes_on) ++count;
+    t.scene.visit = visit->second;
+    before = &t;
   }
 }
 

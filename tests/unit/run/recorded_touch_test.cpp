@@ -46,6 +46,32 @@ TEST_CASE("only effects within a signal period see what a touch itself adds to i
   }
 }
 
+TEST_CASE("the head was not indexed between two runs where the log goes on with the number of the visit") {
+  const Machine machine = read_machine("coord3-mc16");
+  // Of three runs of four touches each, with these numbers at the first two touches and at the others.
+  const auto visits = [&](std::vector<std::pair<int, int>> logged, double tilted_deg = 0) {
+    Recording r;
+    for (int run = 1; run <= 3; ++run)
+      for (int k = 0; k < 4; ++k) {
+        RecordingRow row = ball(0).rows[static_cast<std::size_t>(k)];
+        row.run = run, row.time_s = 100 * run + k;
+        row.head_a_deg = run == 2 ? tilted_deg : 0, row.head_b_deg = 0;
+        if (!logged.empty()) row.visit = k < 2 ? logged[run - 1].first : logged[run - 1].second;
+        r.rows.push_back(row);
+      }
+    std::vector<int> out;
+    for (const RecordedTouch& t : recorded_touches(r, machine, "r").touches)
+      if (out.empty() || t.scene.visit != out.back()) out.push_back(t.scene.visit);
+    return out;
+  };
+  CHECK(visits({{1, 1}, {1, 1}, {1, 1}}) == std::vector{0});
+  CHECK(visits({{1, 1}, {1, 1}, {1, 1}}, 30) == std::vector{0, 1, 2});  // the head was turned, whatever the number says
+  CHECK(visits({{1, 2}, {1, 2}, {1, 2}}) == std::vector{0, 1, 2, 3, 4, 5});  // each run counts its own
+  CHECK(visits({{1, 2}, {2, 3}, {3, 3}}) == std::vector{0, 1, 2});
+  CHECK(visits({{1, 1}, {2, 2}, {2, 2}}) == std::vector{0, 1});
+  CHECK(visits({}) == std::vector{0, 1, 2});  // nobody knows
+}
+
 TEST_CASE("touches a hair beyond the travel stay where they are") {
   const Machine machine = read_machine("coord3-mc16");
   const auto highest = [&](double beyond_mm) {
