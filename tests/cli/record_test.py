@@ -57,6 +57,8 @@ with tempfile.TemporaryDirectory() as folder:
     elsewhere = [normal_error_um(b) - normal_error_um(a) for a, b in zip(plain, rows(out))]
     check({r["run"] for r in plain} == {"1"} and {r["run"] for r in again} == {"2"}, "a repeat says that it is one")
     check(all(repeats) and max(map(abs, repeats)) < max(map(abs, elsewhere)) / 2, "it has other noise, but not another machine")
+    visits = [{r["visit"] for r in recorded} for recorded in (plain, again, rows(record(folder, "--run", "1000000")[1]))]
+    check(visits == [{"1"}, {"2"}, {"1000000"}], "the head is indexed anew in each run, and visits count on")
     check(record(folder, "--run", "0")[0].returncode == 2, "runs begin with 1")
 
     run, out = record(folder, "--setup", "2")

@@ -146,9 +146,8 @@ void keep_names(const std::vector<const Sensor*>& sensor_of, RecordedTouches& ou
 /// Senses of the axes and indexing visits follow from the sequence of touches.
 void follow_sequence(const Recording& recording, std::vector<RecordedTouch>& touches) {
   constexpr double kMoves = 0.02;  // an axis that takes this share of the way counts as moving
-  int sense[3] = {1, 1, 1}, turned = 0;
-  std::map<std::pair<int, int>, int> visits;  // by run, each of which may count its own, and number
-  int count = 0;
+  int sense[3] = {1, 1, 1}, turned = 0, count = 0;
+  std::map<std::pair<int, int>, int> visits;  // by number in each run, which may count its own
   const RecordedTouch* before = nullptr;
   for (RecordedTouch& t : touches) {
     for (int k = 0; k < 3; ++k) {
@@ -162,8 +161,8 @@ void follow_sequence(const Recording& recording, std::vector<RecordedTouch>& tou
     const std::optional<int>& logged = recording.rows[t.row].visit;
     // A log whose number stays as it was when a run begins says that the head was not indexed for it.
     const bool goes_on = stays && logged && t.file == before->file && logged == recording.rows[before->row].visit;
-    const auto [visit, is_new] = visits.try_emplace({t.scene.run, logged.value_or(turned)}, count);
-    if (is_new && goes_on) visit->second = before->scene.visit;
+    const auto [visit, is_new] =
+        visits.try_emplace({t.scene.run, logged.value_or(turned)}, goes_on ? before->scene.visit : count);
     if (is_new && !goes_on) ++count;
     t.scene.visit = visit->second;
     before = &t;
