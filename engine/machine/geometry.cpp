@@ -141,6 +141,12 @@ Vec3 Machine::home_offset() const {
   return sum;
 }
 
+bool Machine::has_head() const {
+  return head.present || std::any_of(sensors.begin(), sensors.end(), [](const auto& named) {
+           return named.second.head_a_rad != 0 || named.second.head_b_rad != 0;
+         });
+}
+
 GeometryCoefficients draw_geometry(const Machine& machine, std::uint64_t seed, std::uint32_t machine_index) {
   const int size = basis_size(machine.harmonics);
   const Grid grid(machine.harmonics);

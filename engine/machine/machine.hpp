@@ -79,6 +79,7 @@ struct Specification {
 };
 
 struct HeadSpec {
+  bool present = false;  ///< the file describes one
   std::string model;
   double l_r_mm = 0;                  ///< mounting point to the centre of the head's axes, straight down
   double sd_a_rad = 0, sd_b_rad = 0;  ///< repeatability of one indexing, one standard deviation
@@ -155,6 +156,8 @@ struct Machine {
   /// Sum of the offsets of the ram side and the mount: scale readings + this + tip from mount = tip in W
   /// (paper eq. 17).
   Vec3 home_offset() const;
+  /// Whether styli are turned: the file describes a head, or gives a stylus angles of one. Else all are fixed to the ram.
+  bool has_head() const;
 };
 
 /// Reads a machine file, or a shipped machine by name ("coord3-mc16"). Throws UserError: unreadable, not

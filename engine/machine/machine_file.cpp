@@ -190,6 +190,7 @@ void read_specification(JsonObject object, Specification& spec) {
 
 void read_head(JsonObject object, HeadSpec& head) {
   if (!object.present()) return;
+  head.present = true;
   head.model = object.text_or("model", "");
   head.l_r_mm = object.number_or("l_r_mm", 0, kDistance_mm);
   JsonObject sd = object.object("angle_sd_arcsec");

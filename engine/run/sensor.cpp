@@ -24,8 +24,8 @@ const NamedSensor& machine_sensor(const plan::SensorDef& def, const Machine& mac
 }
 
 /// The definition with what the machine file says of the sensor.
-plan::SensorDef filled_in(plan::SensorDef def, const NamedSensor& sensor) {
-  def.indexed = true;
+plan::SensorDef filled_in(plan::SensorDef def, const NamedSensor& sensor, bool indexed) {
+  def.indexed = indexed;
   def.head_a_rad = sensor.head_a_rad;
   def.head_b_rad = sensor.head_b_rad;
   def.tip_in_r = sensor.tip_in_r_mm;
@@ -50,7 +50,7 @@ int stylus_ordinal(const Sensor& sensor, const std::vector<Sensor>& before) {
 
 Sensor resolve_sensor(const plan::SensorDef& definition, const Machine& machine, const SourceFile& source) {
   const NamedSensor* named = definition.from_machine_file ? &machine_sensor(definition, machine, source) : nullptr;
-  const plan::SensorDef def = named ? filled_in(definition, *named) : definition;
+  const plan::SensorDef def = named ? filled_in(definition, *named, machine.has_head()) : definition;
   const double turn = def.has_mount ? def.mount_turn_rad : machine.head.mounting_rad;
   const Mat3 R_mounting = rotation({0, 0, 1}, turn);
   Sensor s;

@@ -33,6 +33,22 @@ class Columns(harness.Case):
             self.assertAlmostEqual(said["effects"][0]["parameters"]["resolution_um"]["value"], step_um)
             self.assertIn(f"Record the digits that the machine has: x, y and z come in steps of {step_um} um.", said["otherwise"] or "")
 
+    def test_the_only_stylus_of_a_machine_without_a_head_need_not_be_logged(self):
+        """It is in no orientation, so no column says what its touches lack, and no error of a head explains them."""
+        machine = {k: v for k, v in json.loads(MACHINE.read_text()).items() if k != "head"}
+        (self.folder / "fixed.json").write_text(json.dumps(machine | {"sensors": {"DOWN": {"tip_in_r_mm": [0, 0, -150], "diameter_mm": 4}}}))
+        said = {}
+        for name, missing in (("logged", ()), ("not_logged", ("sensor", "head_A_deg", "head_B_deg", "visit"))):
+            whole = self.record("--seed", 4, "--with", "probe.pretravel_lobing:amplitude_um=3", program=harness.ROOT / "examples/iso10360/form_and_size_1x25.dmi")
+            path = self.changed(whole, lambda row: row | {c: "" for c in missing}, f"{name}.csv")
+            path.write_text("".join(line for line in path.read_text().splitlines(True) if not line.startswith("# sensor")))
+            said[name] = json.loads(self.abbe("diagnose", path, "--machine", "fixed.json", "--format", "json").stdout)
+            self.assertEqual({c["effect"]: c["missing"] for c in said[name]["cannot_judge"] if c["effect"] in ("head.axis_errors", "head.reindexing")},
+                             {"head.axis_errors": [], "head.reindexing": []})
+        self.assertEqual([e["members"][0] for e in said["logged"]["effects"]], ["probe.pretravel_lobing"])
+        for key in ("verdict", "effects", "p_value"):
+            self.assertEqual(said["logged"][key], said["not_logged"][key], key)
+
     def test_a_part_off_its_targets_hides_no_rounding(self):
         def moved(row):
             return row | {a: f"{round(2e2 * (float(row[a]) + by)) / 2e2:.3f}" for a, by in (("x", 0.2), ("y", -0.3), ("z", 0.1))} | {f"enc_{a}": "" for a in "xyz"}

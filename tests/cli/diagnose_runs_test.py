@@ -166,6 +166,7 @@ class DiagnoseRuns(harness.Case):
             self.assertIn("to the last digit", said)
         few = lambda row: row | {"run": "2"} | ({"x": repr(float(row["x"]) + 1e-4)} if row["touch"] == "3" else {})
         self.refused("E0713", "diagnose", self.changed(first, few, "few.csv"), first)
+        first = self.changed(first, lambda row: row if row["head_A_deg"] == "0.0000" else None, "short.csv")   # a plan is judged by all of its touches
         coarse = lambda row: row | {a: f"{float(row[a]):.2f}" for a in "xyz"} | {f"enc_{a}": "" for a in "xyz"}
         again = self.changed(self.changed(first, coarse, "one.csv"), lambda row: row | {"run": "2"}, "two.csv")
         self.abbe("diagnose", "one.csv", again, "--machine", MACHINE, "--design-only")   # two decimals repeat by themselves

@@ -33,7 +33,9 @@ std::size_t visits_in(const RecordedTouches& t) {
 /// Of one difference, as between two indexings, nobody can tell that it is a spread.
 bool spread_hidden(const Effect& effect, const RecordedTouches& t) {
   constexpr std::size_t kLeastVisits = 3;
-  return effect.draws > 0 && effect.draws_per == DrawsPer::visit && visits_in(t) < kLeastVisits;
+  const bool turns = std::any_of(t.touches.begin(), t.touches.end(),
+                                 [](const RecordedTouch& touch) { return touch.scene.stylus.indexed; });
+  return turns && effect.draws > 0 && effect.draws_per == DrawsPer::visit && visits_in(t) < kLeastVisits;
 }
 
 unsigned missing_of(const Effect& effect, const RecordedTouches& t) {

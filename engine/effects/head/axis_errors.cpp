@@ -56,6 +56,7 @@ Motion motion(double angle_rad, const double* z) {
 
 Vec3 head_axis_errors(const TouchScene& scene, const double* theta, const double* z) {
   const StylusScene& stylus = scene.stylus;
+  if (!stylus.indexed) return {};
   const Motion a = motion(stylus.head_a_rad, z), b = motion(stylus.head_b_rad, z + kDrawsPerAxis);
   const Mat3 R_B = frame_after_b(stylus);
   const Vec3 translation = b.translation + R_B * a.translation, rotation = b.rotation + R_B * a.rotation;

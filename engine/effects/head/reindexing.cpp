@@ -23,6 +23,7 @@ constexpr EffectParameter kHeadReindexingParameters[] = {
 };
 
 Vec3 head_reindexing(const TouchScene& scene, const double* theta, const double* z) {
+  if (!scene.stylus.indexed) return {};
   const Mat3 R_B = frame_after_b(scene.stylus);
   const Vec3 rotation = -z[0] * R_B.cy + z[1] * R_B.cz;
   return theta[0] * kUrad * cross(rotation, head_arm(scene.stylus));

@@ -43,15 +43,8 @@ const std::vector<CovariateColumns>& covariate_columns() {
 using CovariateValue = std::variant<double, std::string>;
 using CovariateValues = std::vector<CovariateValue>;
 
-/// The angles of the head: those of the row, or where it has none those that are stated of the stylus it
-/// names. Empty where neither says.
-CovariateValues head_angles(const RecordingRow& r, const Sensor& sensor) {
-  const bool stated = (r.head_a_deg && r.head_b_deg) || r.sensor;
-  return stated ? CovariateValues{sensor.head_a_rad, sensor.head_b_rad} : CovariateValues{};
-}
-
 /// The values of a covariate in a row; empty when it was not logged.
-CovariateValues values(Covariate c, const RecordingRow& r, const Sensor& sensor) {
+CovariateValues values(Covariate c, const RecordingRow& r, const Sensor& sensor, const RecordedStyli& styli) {
   const auto given = [](std::initializer_list<std::optional<double>> list) {
     CovariateValues v;
     for (const auto& x : list)
@@ -70,8 +63,9 @@ CovariateValues values(Covariate c, const RecordingRow& r, const Sensor& sensor)
     case Covariate::speed: return given({r.speed_mm_s});
     case Covariate::acceleration: return given({r.accel_mm_s2});
     case Covariate::direction: return of_vector(r.travel);
-    case Covariate::head: return head_angles(r, sensor);
-    case Covariate::sensor: return r.sensor ? CovariateValues{*r.sensor} : CovariateValues{};
+    case Covariate::head:
+      return styli.tells_head(r) ? CovariateValues{sensor.head_a_rad, sensor.head_b_rad} : CovariateValues{};
+    case Covariate::sensor: return styli.tells_stylus(r) ? CovariateValues{sensor.name} : CovariateValues{};
     case Covariate::part_temperature: return given({r.temp_part_C});
     case Covariate::scale_temperature: return given({r.temp_x_C, r.temp_y_C, r.temp_z_C});
     case Covariate::air_temperature: return given({r.temp_air_C});
@@ -79,7 +73,7 @@ CovariateValues values(Covariate c, const RecordingRow& r, const Sensor& sensor)
     case Covariate::raw_reading: return of_vector(r.reading_mm);
     case Covariate::load: return given({r.load_kg});
     case Covariate::visit:
-      return head_angles(r, sensor).empty() ? CovariateValues{} : CovariateValues{double(r.visit.value_or(0))};
+      return styli.tells_head(r) ? CovariateValues{double(r.visit.value_or(0))} : CovariateValues{};
     case Covariate::qualification: return given({of(r.qualification)});
     case Covariate::feature: return {r.feature};
   }
@@ -88,13 +82,14 @@ CovariateValues values(Covariate c, const RecordingRow& r, const Sensor& sensor)
 
 }  // namespace
 
-Logged logged_covariates(const Recording& recording, const std::vector<const Sensor*>& sensors) {
+Logged logged_covariates(const Recording& recording, const std::vector<const Sensor*>& sensors,
+                         const RecordedStyli& styli) {
   Logged out;
   for (const CovariateColumns& entry : covariate_columns()) {
     bool known = true, varying = false;
-    const CovariateValues first = values(entry.covariate, recording.rows.front(), *sensors.front());
+    const CovariateValues first = values(entry.covariate, recording.rows.front(), *sensors.front(), styli);
     for (std::size_t i = 0; i < recording.rows.size(); ++i) {
-      const CovariateValues v = values(entry.covariate, recording.rows[i], *sensors[i]);
+      const CovariateValues v = values(entry.covariate, recording.rows[i], *sensors[i], styli);
       known = known && !v.empty();
       if (known && v != first) varying = true;
     }

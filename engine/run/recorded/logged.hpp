@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/recording/recording.hpp"
+#include "engine/run/recorded/styli.hpp"
 #include "engine/run/sensor.hpp"
 
 namespace abbe {
@@ -14,8 +15,8 @@ struct Logged {
   unsigned varying = 0;  ///< of these, those that are not the same throughout
 };
 
-/// `sensors`: by row.
-Logged logged_covariates(const Recording&, const std::vector<const Sensor*>& sensors);
+/// `sensors`: by row, as `styli` gave them.
+Logged logged_covariates(const Recording&, const std::vector<const Sensor*>& sensors, const RecordedStyli& styli);
 
 /// The columns of a recording that hold these covariates, for messages: {"temp_part_C"}.
 std::vector<std::string> columns_of(unsigned covariates);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string_view>
 #include <utility>
@@ -18,6 +19,19 @@ bool is_near(const std::optional<double>& a_deg, const std::optional<double>& b_
 }
 
 }  // namespace
+
+RecordedStyli::RecordedStyli(const Recording& recording, const Machine& machine, const std::string& file)
+    : recording_(recording), machine_(machine), file_(file) {
+  machine_.head.present |= std::any_of(recording.rows.begin(), recording.rows.end(), [](const RecordingRow& row) {
+    return row.head_a_deg.value_or(0) != 0 || row.head_b_deg.value_or(0) != 0;
+  });
+}
+
+bool RecordedStyli::tells_stylus(const RecordingRow& row) const { return row.sensor || machine_.sensors.size() == 1; }
+
+bool RecordedStyli::tells_head(const RecordingRow& row) const {
+  return (row.head_a_deg && row.head_b_deg) || row.sensor || (tells_stylus(row) && !machine_.has_head());
+}
 
 const Sensor& RecordedStyli::of(const RecordingRow& row) {
   const std::string name = row.sensor.value_or("");

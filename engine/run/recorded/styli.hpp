@@ -23,8 +23,7 @@ inline constexpr double kReadBack_deg = 0.1;
 class RecordedStyli {
  public:
   /// `file`: what the whole recording is called.
-  RecordedStyli(const Recording& recording, const Machine& machine, const std::string& file)
-      : recording_(recording), machine_(machine), file_(file) {}
+  RecordedStyli(const Recording& recording, const Machine& machine, const std::string& file);
 
   /// That of a row, which stays where it is. Throws UserError: a name that neither the recording nor the machine knows.
   const Sensor& of(const RecordingRow&);
@@ -33,6 +32,10 @@ class RecordedStyli {
   const std::vector<std::string>& names() const { return names_; }
   /// Qualified tips: styli in each of their orientations.
   int tips() const { return static_cast<int>(met_.size()); }
+  /// Whether it is known which stylus made a touch: the row says it, or there is only one.
+  bool tells_stylus(const RecordingRow&) const;
+  /// Whether it is known at which angles of the head: the row or its stylus says it, or there is no head.
+  bool tells_head(const RecordingRow&) const;
   /// W0541 where a stylus had to be assumed.
   const std::vector<Diagnostic>& messages() const { return messages_; }
 
@@ -47,7 +50,7 @@ class RecordedStyli {
   void assume(const RecordingRow&, plan::SensorDef&);
 
   const Recording& recording_;
-  const Machine& machine_;
+  Machine machine_;  ///< has a head where rows were made at angles of one
   std::string file_;
   std::map<std::string, std::deque<Known>> known_;  ///< by name
   std::vector<Sensor> met_;

@@ -229,7 +229,7 @@ RecordedTouches recorded_touches(const Recording& recording, const Machine& mach
   out.styli = styli.names();
   out.tips = styli.tips();
   out.messages = styli.messages();
-  const Logged logged = logged_covariates(recording, sensor_of);
+  const Logged logged = logged_covariates(recording, sensor_of, styli);
   out.known = logged.known;
   out.varying = logged.varying;
   doubt_axes(recording, out, file);

@@ -29,6 +29,7 @@ inline RecordedTouches scattered(int count, int visit = 15) {
     s.normal = {r * std::cos(around), r * std::sin(around), z};
     s.visit = i / visit;
     s.time_s = 10 * i + 60 * s.visit;
+    s.stylus.indexed = true;
     s.stylus.head_b_rad = s.visit % 3;
     s.stylus.to_head = Vec3{std::sin(2 * kPi / 3 * (s.visit % 3)), 0, std::cos(2 * kPi / 3 * (s.visit % 3))};
     s.stylus.length_mm = 100;

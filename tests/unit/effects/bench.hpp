@@ -55,6 +55,7 @@ inline TouchScene touch(const Vec3& normal, double length_mm = 50, double a_rad 
   StylusScene& s = scene.stylus;
   s.R_WR = head_pose(a_rad, b_rad);
   s.head_a_rad = a_rad, s.head_b_rad = b_rad;
+  s.indexed = true;
   s.to_head = s.R_WR.cz;
   s.length_mm = length_mm;
   s.tip_from_mount_mm = -length_mm * s.to_head;

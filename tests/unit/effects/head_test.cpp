@@ -40,6 +40,14 @@ TEST_CASE("re-indexing: derivatives of the tip by the two angles, for any mounti
   CHECK(norm(displacement_mm(kHeadReindexing, mounted, {{"sd_urad", 1}}, {1, 2}) - M * unmounted) < 1e-15);
 }
 
+TEST_CASE("what is fixed to the ram is not turned") {
+  TouchScene fixed = touch({1, 0, 0}, 100, 0.5, 0.2);
+  fixed.stylus.indexed = false;
+  CHECK(norm(displacement_mm(kHeadReindexing, fixed, {{"sd_urad", 10}}, {1, 2})) == 0);
+  CHECK(norm(displacement_mm(kHeadAxisErrors, fixed, {{"translation_um", 1}, {"rotation_urad", 10}},
+                             one_of(kHeadAxisErrors, 0))) == 0);
+}
+
 TEST_CASE("re-indexing: 0.5 um at 62 mm is two standard deviations; drawn per visit") {
   CHECK(2 * reading_um(kHeadReindexing, touch({1, 0, 0}, 62), {{"sd_urad", 4.03}}, {1, 0}) ==
         doctest::Approx(0.5).epsilon(0.001));
