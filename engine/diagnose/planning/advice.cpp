@@ -52,6 +52,12 @@ bool stood_elsewhere(const Case& c) {
   });
 }
 
+/// A wrong figure of a certificate makes its feature stray by itself.
+std::string to_check_certificate(const Case& c, Factor factor) {
+  if (factor != Factor::feature || c.baseline.surfaces != Surfaces::calibrated) return "";
+  return "Check what is given of these features first, which costs no measurement: a wrong figure of a certificate looks like this. ";
+}
+
 /// What makes a pattern without a name is narrowed down by changing what it may belong to.
 std::string to_follow_a_pattern(const Case& c, Factor factor) {
   if (factor == Factor::feature && one_after_the_other(c))
@@ -166,7 +172,10 @@ bool worth_a_round(const std::vector<NextMeasurement>& next) {
 /// What to do beside a measurement of the menu, or where there is none that is worth its time.
 std::string besides_sizes(const Case& c, const SearchResult& result, const Diagnosis& told) {
   if (worth_a_round(told.next_measurement)) return to_follow_what_is_left(c, result, 0);
-  if (result.other) return to_follow_a_pattern(c, c.explanations.list[result.other->explanation].factor);
+  if (result.other) {
+    const Factor factor = c.explanations.list[result.other->explanation].factor;
+    return to_check_certificate(c, factor) + to_follow_a_pattern(c, factor);
+  }
   std::vector<std::string> sentences = to_log(c, result);
   if (std::string left = to_follow_what_is_left(c, result, missed_by_names(c, result)); !left.empty())
     sentences.push_back(std::move(left));

@@ -57,6 +57,18 @@ TEST_CASE("what was logged and is the same throughout comes last") {
   CHECK(p.says().ends_with("first of all, log accel_mm_s2, and let it and speed_mm_s vary."));
 }
 
+TEST_CASE("a calibrated feature that strays may have a wrong figure in its certificate") {
+  LeavesMore p;
+  p.result.findings.clear();
+  Explanation& of_features = p.c.explanations.list.emplace_back();
+  of_features.factor = Factor::feature;
+  p.result.other = Finding{};
+  p.result.other->explanation = static_cast<int>(p.c.explanations.list.size()) - 1;
+  CHECK(p.says().starts_with("Check what is given of these features first"));
+  p.c.baseline.surfaces = Surfaces::unknown;
+  CHECK_FALSE(p.says().starts_with("Check"));
+}
+
 TEST_CASE("files of one run hide what is new in one of them") {
   LeavesMore p;
   const std::string told = "All files have the same run";
