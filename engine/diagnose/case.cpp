@@ -77,6 +77,14 @@ bool runs_share_a_setup(const Case& c) {
   });
 }
 
+bool begins_within_a_setup(const Case& c, const RunChange& change) {
+  std::map<int, bool> acts;
+  return std::any_of(c.rows.begin(), c.rows.end(), [&](int row) {
+    const TouchScene& s = c.touches.touches[row].scene;
+    return acts.try_emplace(s.setup, change.acts_in(s.run)).first->second != change.acts_in(s.run);
+  });
+}
+
 std::vector<std::size_t> by_time(const RecordedTouches& t) {
   std::vector<std::size_t> order(t.touches.size());
   std::iota(order.begin(), order.end(), 0);

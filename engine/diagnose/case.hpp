@@ -44,6 +44,9 @@ void judge_rounding(double step_um, Case&);
 /// Whether several runs share one placement of the part.
 bool runs_share_a_setup(const Case&);
 
+/// Whether a change between runs began, or ended, while the part stayed where it was.
+bool begins_within_a_setup(const Case&, const RunChange&);
+
 /// The touches in the order of their times.
 std::vector<std::size_t> by_time(const RecordedTouches&);
 

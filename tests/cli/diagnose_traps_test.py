@@ -281,6 +281,20 @@ class Traps(harness.Case):
         self.assertLess(abs(cte["value"] - 15), 3 * cte["u"])
         self.assertEqual(held["value"], "elsewhere")
 
+    def test_the_size_of_an_expansion_goes_by_no_temperature_that_nobody_logged(self):
+        """A wrong coefficient acts on a temperature. A wrong temperature acts by itself, so a machine file can carry it."""
+        def grown(row):
+            um_per_mm = 30e-3
+            return farther(row, sum(um_per_mm * (float(row["t" + a]) - at) * float(row["n" + a]) for a, at in zip("xyz", (850, 510, -540))))
+        first, second = (self.changed(self.record("--seed", 5, "--run", run), grown, f"run{run}.csv") for run in (1, 2))
+        said = json.loads(self.abbe("diagnose", first, "--machine", MACHINE, "--model-out", "model.json", "--format", "json").stdout)
+        [expansion] = [e for e in said["effects"] if e["members"][0] == "thermal.part_expansion"]
+        self.assertNotIn("cte_error_ppm_per_K", expansion["parameters"])
+        kelvin = expansion["parameters"]["temperature_error_K"]
+        self.assertLess(abs(kelvin["value"] - 30 / 11.5), 3 * kelvin["u"])
+        again = json.loads(self.abbe("diagnose", second, "--known", "model.json", "--format", "json").stdout)
+        self.assertEqual(again["verdict"], "no_mismatch")
+
     def test_a_part_without_a_thermometer_follows_the_scales(self):
         """The part grows as the scales get warmer, and only these have thermometers: whether it is the part or they is not told for certain."""
         def warm(row):

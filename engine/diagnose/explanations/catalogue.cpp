@@ -67,32 +67,26 @@ class Evaluation {
  public:
   Evaluation(const Effect& effect, const RecordedTouches& t, const std::vector<int>& rows) : effect_(effect) {
     std::map<int, double> begin_s;  // by file; touches stand in the order of time
+    const bool assumes = (effect.needs & kMayBeAssumed & ~t.known) != 0;
     for (const int i : rows) {
-      scenes_.push_back(with_surrogates(scene_for(effect, t.touches[i]), t));
+      const TouchScene scene = scene_for(effect, t.touches[i]);
+      if (assumes) logged_.push_back(scene);
+      scenes_.push_back(with_surrogates(scene, t));
       start_s_.push_back(begin_s.try_emplace(t.touches[i].file, scenes_.back().time_s).first->second);
     }
   }
 
   Vector column(const std::vector<double>& theta, RunChange change, const std::vector<double>& draws,
                 int visit = -1) const {
-    Vector r = Vector::Zero(static_cast<Eigen::Index>(scenes_.size()));
-    const std::vector<double> none(draws.size(), 0.0);
-    for (std::size_t i = 0; i < scenes_.size(); ++i) {
-      if (!change.acts_in(scenes_[i].run)) continue;
-      const std::vector<double>& z = visit >= 0 && scenes_[i].visit != visit ? none : draws;
-      const auto along_normal = [&](const TouchScene& s) {
-        return kUmPerMm * dot(s.normal, effect_.displace(s, theta.data(), z.data()));
-      };
-      if (change.in_each_file) {
-        TouchScene since_its_start = scenes_[i];
-        since_its_start.time_s -= start_s_[i];
-        r(static_cast<Eigen::Index>(i)) = along_normal(since_its_start);
-      } else {
-        r(static_cast<Eigen::Index>(i)) = along_normal(scenes_[i]);
-      }
-    }
-    return r;
+    return column(scenes_, theta, change, draws, visit);
   }
+
+  /// Whether it does anything only by what nobody logged.
+  bool is_assumed(const std::vector<double>& theta, RunChange change) const {
+    return !logged_.empty() && column(logged_, theta, change, {}, -1).cwiseAbs().maxCoeff() < kNothing_um;
+  }
+
+  static constexpr double kNothing_um = 1e-6;
 
   std::set<int> visits() const {
     std::set<int> list;
@@ -101,9 +95,31 @@ class Evaluation {
   }
 
  private:
+  Vector column(const std::vector<TouchScene>& scenes, const std::vector<double>& theta, RunChange change,
+                const std::vector<double>& draws, int visit) const {
+    Vector r = Vector::Zero(static_cast<Eigen::Index>(scenes.size()));
+    const std::vector<double> none(draws.size(), 0.0);
+    for (std::size_t i = 0; i < scenes.size(); ++i) {
+      if (!change.acts_in(scenes[i].run)) continue;
+      const std::vector<double>& z = visit >= 0 && scenes[i].visit != visit ? none : draws;
+      const auto along_normal = [&](const TouchScene& s) {
+        return kUmPerMm * dot(s.normal, effect_.displace(s, theta.data(), z.data()));
+      };
+      if (change.in_each_file) {
+        TouchScene since_its_start = scenes[i];
+        since_its_start.time_s -= start_s_[i];
+        r(static_cast<Eigen::Index>(i)) = along_normal(since_its_start);
+      } else {
+        r(static_cast<Eigen::Index>(i)) = along_normal(scenes[i]);
+      }
+    }
+    return r;
+  }
+
   const Effect& effect_;
   std::vector<TouchScene> scenes_;
-  std::vector<double> start_s_;  ///< of the file that each is of
+  std::vector<TouchScene> logged_;  ///< without surrogates, if the effect has any
+  std::vector<double> start_s_;     ///< of the file that each is of
 };
 
 /// Every combination of the values tried, with what each stands for.
@@ -172,7 +188,7 @@ class VariantColumns {
         theta[p] = unit;
         if (direction_ >= 0) theta[direction_] = variant.axis < 0 ? d : variant.axis;
         for (const int at : phases_) theta[at] = 90.0 * phase;
-        const Column column{p, d + 3 * phase, unit};
+        const Column column{p, d + 3 * phase, unit, evaluate_.is_assumed(theta, variant.change)};
         if (effect_.draws == 0)
           append(variant, column, evaluate_.column(theta, variant.change, {}));
         else
@@ -192,8 +208,7 @@ class VariantColumns {
   }
 
   static void append(Variant& variant, const Column& column, const Vector& values) {
-    constexpr double kNothing_um = 1e-6;
-    if (values.cwiseAbs().maxCoeff() < kNothing_um) return;
+    if (values.cwiseAbs().maxCoeff() < Evaluation::kNothing_um) return;
     variant.columns.push_back(column);
     variant.signature.conservativeResize(values.size(), variant.signature.cols() + 1);
     variant.signature.col(variant.signature.cols() - 1) = values;

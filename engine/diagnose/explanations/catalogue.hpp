@@ -19,6 +19,9 @@ void add_explanations_of_readings(const RecordedTouches&, const std::vector<int>
 
 /// What cannot be judged, in the order of the catalogue, with the columns that are missing.
 std::vector<CannotJudge> cannot_judge(const Explanations&);
+
+/// Covariates that have an assumed value where nobody logged them, so that what they act on stays an explanation.
+inline constexpr unsigned kMayBeAssumed = Covariate::part_temperature | Covariate::scale_temperature | Covariate::load;
 /// Adds the effects that could be judged but would not show at any size, as what is unknown of the part hides them.
 void add_hidden(const Explanations&, Diagnosis&);
 

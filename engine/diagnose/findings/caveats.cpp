@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/diagnose/explanations/catalogue.hpp"
 #include "engine/diagnose/words.hpp"
 #include "engine/effects/direction.hpp"
 #include "engine/run/recorded/from_program.hpp"
+#include "engine/run/recorded/logged.hpp"
 
 namespace abbe::diagnose {
 
@@ -68,7 +70,9 @@ std::string what_does_nearly_the_same(const Effect& effect, const Variant& varia
   for (std::size_t k = 0; k < variant.columns.size(); ++k) {
     const Vector other = variant.signature.col(static_cast<Eigen::Index>(k));
     const double times = does.dot(other) / other.squaredNorm();
-    if (is_told(variant.columns[k]) || (does - times * other).norm() > kNearly * does.norm()) continue;
+    if (is_told(variant.columns[k]) || variant.columns[k].assumed ||
+        (does - times * other).norm() > kNearly * does.norm())
+      continue;
     const EffectParameter& p = effect.parameters[variant.columns[k].parameter];
     DiagnosedParameter instead = *told_of(*own);
     const double unit = times * variant.columns[k].unit / own->unit;
@@ -79,6 +83,19 @@ std::string what_does_nearly_the_same(const Effect& effect, const Variant& varia
     others.push_back(with_uncertainty(instead));
   }
   return others.empty() ? "" : fmt::format(" Here {} would do nearly the same.", fmt::join(others, " or "));
+}
+
+std::string whose_surroundings(const Case& c, const Effect& effect, const Variant& variant,
+                               const std::vector<DiagnosedParameter>& told) {
+  const auto told_by_assumption = [&](const Column& column) {
+    return column.assumed && std::any_of(told.begin(), told.end(), [&](const DiagnosedParameter& p) {
+             return p.name == effect.parameters[column.parameter].name;
+           });
+  };
+  if (std::none_of(variant.columns.begin(), variant.columns.end(), told_by_assumption)) return "";
+  return fmt::format(
+      " The recording has no {}, and this size goes by a value that was assumed: log it. Until then no machine file carries it.",
+      fmt::join(columns_of(effect.needs & kMayBeAssumed & ~c.touches.known), ", "));
 }
 
 std::string whose_clock(const Case& c, const Effect& effect) {

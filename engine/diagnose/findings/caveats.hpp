@@ -35,6 +35,9 @@ std::string what_does_nearly_the_same(const Effect&, const Variant&, const std::
 /// Without a clock, moments and rates are those of the motion model.
 std::string whose_clock(const Case&, const Effect&);
 
+/// Whether the size of a parameter that is told goes by a value that nobody logged: which columns are missing.
+std::string whose_surroundings(const Case&, const Effect&, const Variant&, const std::vector<DiagnosedParameter>& told);
+
 /// The note, or "" where one of these has it already: an answer says once what holds for several of its effects.
 std::string unless_said(const std::vector<DiagnosedEffect>&, const std::string& note);
 

@@ -80,7 +80,9 @@ Doubts doubts_of(const Case& c, const SearchResult& result, std::size_t k, const
 std::string give_file(const Case& c, const Finding& f, bool looked_for, DiagnosedEffect& e, Diagnosis& out) {
   const Effect& effect = *c.explanations.list[f.explanation].effect;
   if (e.change.front().gone() && looked_for) return " It is gone: the machine file needs nothing of it.";
-  if (!whose_clock(c, effect).empty()) return "";  // which says so
+  const bool told_elsewhere = !whose_clock(c, effect).empty() ||
+      !whose_surroundings(c, effect, c.explanations.variants[f.variant], e.parameters).empty();
+  if (told_elsewhere) return "";
   if (may_be_rounding(c, e.largest_um))
     return fmt::format(
         " It may come from the rounding of the positions to {:g} um, and no machine file carries it: record the digits that the machine has.",
@@ -120,7 +122,8 @@ void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
         (doubts.same_phase ? kSamePhase : "") + (doubts.cancelled ? kNearlyCancelled : "") + much_like_it(effect) +
         what_does_nearly_the_same(effect, variant, e.parameters);
     if (unproven && !doubts.any() && f.probability > kDoubted) e.sentence += unless_said(out.effects, kUnproven);
-    for (const std::string& note : {whose_coordinates(c, effect), whose_direction(effect), whose_clock(c, effect)})
+    for (const std::string& note : {whose_coordinates(c, effect), whose_direction(effect), whose_clock(c, effect),
+                                    whose_surroundings(c, effect, variant, e.parameters)})
       e.sentence += unless_said(out.effects, note);
     if (change.in_each_file)
       e.sentence +=
@@ -129,7 +132,7 @@ void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
       e.sentence +=
           " That it is gone nobody has seen: no orientation in which it was there was touched since. Touch one of them again.";
     e.sentence += in_file;
-    if (change.any() && runs_share_a_setup(c))
+    if (change.any() && begins_within_a_setup(c, change))
       e.sentence +=
           " That takes for granted that the part did not move between the runs; if it may have, give them different setups.";
     out.effects.push_back(std::move(e));

@@ -78,7 +78,10 @@ VariantEstimate::VariantEstimate(const Effect& effect, const Variant& variant, c
       covariance_(Matrix::Zero(info.u.size(), info.u.size())) {
   for (const Column& c : variant.columns)
     directions_ = std::max(directions_, c.part % 3 > 0 ? 3 : 1), phases_ = std::max(phases_, c.part / 3 + 1);
-  solve(info, {});
+  std::set<int> later;
+  for (const Column& c : variant.columns)
+    if (c.assumed) later.insert(c.parameter);
+  solve(info, later);
   // What a parameter cannot be, one that does the same to these touches may: a force is never negative, its change is.
   std::set<int> impossible;
   for (std::size_t k = 0; k < variant.columns.size(); ++k) {
@@ -90,7 +93,10 @@ VariantEstimate::VariantEstimate(const Effect& effect, const Variant& variant, c
                  u = variant.columns[k].unit * std::sqrt(covariance_(at, at));
     if (size + kNormal95 * u < parameter.low || size - kNormal95 * u > parameter.high) impossible.insert(p);
   }
-  if (!impossible.empty()) solve(info, impossible);
+  if (!impossible.empty()) {
+    later.merge(impossible);
+    solve(info, later);
+  }
   if (const std::optional<int> one = one_for_all(info)) solve(info, {}, one);
 }
 

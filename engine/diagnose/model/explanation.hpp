@@ -22,9 +22,10 @@ std::string_view name(Factor);
 
 /// One column of a variant before its columns are joined: which linear parameter (or draw) it belongs to.
 struct Column {
-  int parameter = -1;  ///< index into the effect's parameters; -1: a coefficient without a name (OTHER, draws)
-  int part = 0;        ///< along which direction (0, 1, 2) or phase (0, 1) it is taken; both: direction + 3 phase
-  double unit = 1;     ///< parameter value of one prior standard deviation
+  int parameter = -1;    ///< index into the effect's parameters; -1: a coefficient without a name (OTHER, draws)
+  int part = 0;          ///< along which direction (0, 1, 2) or phase (0, 1) it is taken; both: direction + 3 phase
+  double unit = 1;       ///< parameter value of one prior standard deviation
+  bool assumed = false;  ///< does anything only by a value of the scene that nobody logged
 };
 
 /// The values of a parameter that one value stands for.

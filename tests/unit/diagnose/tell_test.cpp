@@ -261,3 +261,28 @@ TEST_CASE("at one temperature the error of a sensor is told beside that of a coe
   CHECK(K == doctest::Approx(12 / 11.5).epsilon(0.1));
   CHECK(told(24).find("would do nearly the same") == std::string::npos);
 }
+
+TEST_CASE("a size that goes by what nobody logged is no figure for a machine file") {
+  Told t;
+  t.c.touches.known &= ~static_cast<unsigned>(Covariate::load);
+  const Effect& bending = *find_effect("part.load_bending");
+  Variant variant;
+  variant.columns = {{0, 0, 1, true}};
+  const std::string parameter(bending.parameters[0].name);
+  CHECK(whose_surroundings(t.c, bending, variant, {{.name = parameter}}).find("no load_kg") != std::string::npos);
+  CHECK(whose_surroundings(t.c, bending, variant, {}).empty());  // another one is told
+  variant.columns[0].assumed = false;
+  CHECK(whose_surroundings(t.c, bending, variant, {{.name = parameter}}).empty());
+}
+
+TEST_CASE("a part that is placed anew for a run has not moved since the run before") {
+  Case c;
+  for (const auto& [run, setup] : {std::pair(1, 1), {2, 1}, {3, 2}, {4, 2}}) {
+    c.rows.push_back(static_cast<int>(c.touches.touches.size()));
+    TouchScene& scene = c.touches.touches.emplace_back().scene;
+    scene.run = run, scene.setup = setup;
+  }
+  CHECK(begins_within_a_setup(c, {.from = 2}));
+  CHECK_FALSE(begins_within_a_setup(c, {.from = 3}));
+  CHECK(begins_within_a_setup(c, {.from = 3, .until = 4}));
+}

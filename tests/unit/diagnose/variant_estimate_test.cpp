@@ -25,6 +25,22 @@ struct Jump {
 
 }  // namespace
 
+TEST_CASE("of parameters that do the same the one that needs no assumed value tells it") {
+  const Effect& expansion = *find_effect("thermal.part_expansion");
+  Variant v;
+  v.columns = {{0, 0, 1, true}, {1, 0, 0.1}};
+  Information info;
+  info.g = Matrix::Constant(2, 2, 100);
+  info.u = Vector::Constant(2, 300);
+  const VariantEstimate told(expansion, v, info);
+  CHECK_FALSE(told.size(0));
+  REQUIRE(told.size(1));
+  CHECK(told.size(1)->value == doctest::Approx(0.3).epsilon(0.01));
+  v.columns[0].assumed = false;
+  CHECK(VariantEstimate(expansion, v, info).size(0));
+  CHECK_FALSE(VariantEstimate(expansion, v, info).size(1));
+}
+
 TEST_CASE("of parameters that do nearly the same one tells what none does by itself") {
   const Effect& bending = *find_effect("probe.stylus_bending");
   Variant v;
