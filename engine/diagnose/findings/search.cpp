@@ -10,6 +10,7 @@
 #include "engine/base/ids.hpp"
 #include "engine/diagnose/explanations/patterns/patterns.hpp"
 #include "engine/diagnose/explanations/refine.hpp"
+#include "engine/diagnose/findings/belief.hpp"
 #include "engine/diagnose/findings/displacements.hpp"
 #include "engine/diagnose/findings/members.hpp"
 #include "engine/diagnose/model/precision.hpp"
@@ -238,6 +239,14 @@ void add_what_names_leave(const Case& c, SearchResult& result) {
   drop_names_beside_a_pattern(c, result);
 }
 
+/// A name that is not believed, and that nothing speaks for beside the pattern, has only led to the pattern.
+void drop_name_that_led_to_a_pattern(const Case& c, SearchResult& result) {
+  if (!result.other || result.findings.size() != 1 || result.findings.front().probability >= kDoubted) return;
+  if (left_by_others(c, result.findings, 0, result.other).evidence().statistic > 0) return;
+  result.findings.clear();
+  result.other = finding_of(c.explanations, result.first, false);
+}
+
 /// Which of the names of a set is told, and what is left beside it.
 void choose_first_members(Case& c, SearchResult& result) {
   const auto first_members = [&] {
@@ -388,6 +397,7 @@ SearchResult search(Case& c, EvidenceSearch& first) {
   if (several && !result.findings.empty() && others(c, result.findings, in_rounds))
     result.adequacy = round(c, rest_of(c, signatures_of(c, result.findings)), kRounds + 1).p;
   add_what_names_leave(c, result);
+  drop_name_that_led_to_a_pattern(c, result);
   put_largest_first(c, result.findings);
   fit_beside_findings(c, result);
   choose_first_members(c, result);
