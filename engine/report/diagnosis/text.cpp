@@ -35,10 +35,14 @@ std::string machine_that_agrees(const Diagnosis& d) {
       ? fmt::format(" if its touches scatter {:.1f} times as much as its file says", b.noise_um / b.stated_noise_um)
       : "";
   if (b.known) return "this machine reports as its file knows it" + scatter;
-  if (b.geometry_scale < kLargeErrors) return "a machine of this specification reports" + scatter;
+  const std::string uneven = b.uneven
+      ? fmt::format("{} if one of its error functions, guides or rails is more uneven than the rest",
+                    scatter.empty() ? "" : ", and")
+      : "";
+  if (b.geometry_scale < kLargeErrors) return "a machine of this specification reports" + scatter + uneven;
   return fmt::format(
-      "a machine reports whose geometric errors are {:.1f} times those of its specification, or rougher{}",
-      b.geometry_scale, scatter);
+      "a machine reports whose geometric errors are {:.1f} times those of its specification, or rougher{}{}",
+      b.geometry_scale, scatter, uneven);
 }
 
 std::string agreement(const Diagnosis& d) {
@@ -82,6 +86,17 @@ std::string first_sentence(const Diagnosis& d) {
   return "";
 }
 
+/// Of what was found, the columns: these effects are told, and so do not stand among those that cannot be judged.
+std::string what_would_tell(const Diagnosis& d) {
+  std::vector<std::string> list;
+  for (const CannotJudge& c : d.cannot_judge) {
+    const auto holds = [&](const DiagnosedEffect& e) { return std::ranges::count(e.members, c.effect) > 0; };
+    if (!c.missing.empty() && std::any_of(d.effects.begin(), d.effects.end(), holds))
+      list.push_back(fmt::format("{} ({})", c.effect, why_not_judged(c, d.touches > 0)));
+  }
+  return list.empty() ? "" : fmt::format(": {}", fmt::join(list, ", "));
+}
+
 /// What is it?
 std::string second_sentence(const Diagnosis& d) {
   std::vector<std::string> parts;
@@ -105,7 +120,9 @@ std::string second_sentence(const Diagnosis& d) {
         "But what it leaves would come by chance in {} of recordings: something else {} at work, beside it or instead.",
         chance(*d.adequacy_p), *d.adequacy_p < kHardlyChance ? "is" : "may be"));
   if (d.verdict == Verdict::cannot_judge)
-    parts.push_back("Whether it is this cannot be judged, because what would tell was not logged or did not change.");
+    parts.push_back(
+        fmt::format("Whether it is this cannot be judged, because what would tell was not logged or did not change{}.",
+                    what_would_tell(d)));
   return fmt::format("{}", fmt::join(parts, " "));
 }
 

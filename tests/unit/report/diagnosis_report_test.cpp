@@ -192,7 +192,12 @@ TEST_CASE("the noise stands beside that of the machine file") {
   d.baseline.noise_um = 1.06, d.baseline.stated_noise_um = 0.5;
   CHECK(says(baseline_in_words(d), "noise 1.06 um (0.50 in the machine file)"));
   d.baseline.noisier = true;
-  CHECK(says(first_sentence(d), "if its touches scatter 2.1 times as much as its file says"));
+  CHECK(says(first_sentence(d), "if its touches scatter 2.1 times as much as its file says:"));
+  d.baseline.uneven = true;
+  CHECK(says(first_sentence(d),
+             "as its file says, and if one of its error functions, guides or rails is more uneven than the rest:"));
+  d.baseline.noisier = false;
+  CHECK(says(first_sentence(d), "specification reports if one of its error functions, guides or rails is more uneven"));
 }
 
 TEST_CASE("what the names leave, and lengths beyond the specification, are told in their sizes") {
@@ -200,6 +205,8 @@ TEST_CASE("what the names leave, and lengths beyond the specification, are told 
   d.cannot_judge = {{"machine.squareness", {"time_s"}, {}}, {"thermal.drift", {"time_s"}, {}}};
   REQUIRE(open_questions(d).size() == 1);  // what was named is no open question
   CHECK(open_questions(d)[0].effect == "thermal.drift");
+  d.verdict = Verdict::cannot_judge;
+  CHECK(says(diagnosis_sentences(d)[1], "was not logged or did not change: machine.squareness (missing: time_s)."));
   d.adequacy_p = 0.005;
   CHECK(says(diagnosis_sentences(d)[1], "something else is at work"));
   d.adequacy_p = 0.03;
