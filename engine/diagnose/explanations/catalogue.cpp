@@ -30,7 +30,7 @@ std::size_t visits_in(const RecordedTouches& t) {
   return visits.size();
 }
 
-/// Of one difference, as between two indexings, nobody can tell that it is a spread.
+/// Of one difference, as between two indexings, nobody can tell that it is a spread. Without a head there are none.
 bool spread_hidden(const Effect& effect, const RecordedTouches& t) {
   constexpr std::size_t kLeastVisits = 3;
   const bool turns = std::any_of(t.touches.begin(), t.touches.end(),
@@ -188,11 +188,13 @@ class VariantColumns {
         theta[p] = unit;
         if (direction_ >= 0) theta[direction_] = variant.axis < 0 ? d : variant.axis;
         for (const int at : phases_) theta[at] = 90.0 * phase;
-        const Column column{p, d + 3 * phase, unit, evaluate_.is_assumed(theta, variant.change)};
-        if (effect_.draws == 0)
-          append(variant, column, evaluate_.column(theta, variant.change, {}));
-        else
+        Column column{p, d + 3 * phase, unit};
+        if (effect_.draws > 0) {
           add_draws(theta, column, variant);
+          continue;
+        }
+        column.assumed = evaluate_.is_assumed(theta, variant.change);
+        append(variant, column, evaluate_.column(theta, variant.change, {}));
       }
     }
   }

@@ -10,6 +10,9 @@
 
 namespace abbe::diagnose {
 
+/// Covariates that have an assumed value where nobody logged them, so that what they act on stays an explanation.
+inline constexpr unsigned kMayBeAssumed = Covariate::part_temperature | Covariate::scale_temperature | Covariate::load;
+
 /// Every explanation for these touches but those that look at raw readings, which are added once the readings
 /// are free of noise (own_noise.cpp); `rows`: which touches take part.
 Explanations explanations_without_readings(const RecordedTouches&, const std::vector<int>& rows);
@@ -20,8 +23,6 @@ void add_explanations_of_readings(const RecordedTouches&, const std::vector<int>
 /// What cannot be judged, in the order of the catalogue, with the columns that are missing.
 std::vector<CannotJudge> cannot_judge(const Explanations&);
 
-/// Covariates that have an assumed value where nobody logged them, so that what they act on stays an explanation.
-inline constexpr unsigned kMayBeAssumed = Covariate::part_temperature | Covariate::scale_temperature | Covariate::load;
 /// Adds the effects that could be judged but would not show at any size, as what is unknown of the part hides them.
 void add_hidden(const Explanations&, Diagnosis&);
 

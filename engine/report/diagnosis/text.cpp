@@ -86,14 +86,19 @@ std::string first_sentence(const Diagnosis& d) {
   return "";
 }
 
+/// Whether it is a name of something that was found.
+bool is_found(const Diagnosis& d, const CannotJudge& c) {
+  return std::any_of(d.effects.begin(), d.effects.end(), [&](const DiagnosedEffect& e) {
+    return std::find(e.members.begin(), e.members.end(), c.effect) != e.members.end();
+  });
+}
+
 /// Of what was found, the columns: these effects are told, and so do not stand among those that cannot be judged.
 std::string what_would_tell(const Diagnosis& d) {
   std::vector<std::string> list;
-  for (const CannotJudge& c : d.cannot_judge) {
-    const auto holds = [&](const DiagnosedEffect& e) { return std::ranges::count(e.members, c.effect) > 0; };
-    if (!c.missing.empty() && std::any_of(d.effects.begin(), d.effects.end(), holds))
+  for (const CannotJudge& c : d.cannot_judge)
+    if (!c.missing.empty() && is_found(d, c))
       list.push_back(fmt::format("{} ({})", c.effect, why_not_judged(c, d.touches > 0)));
-  }
   return list.empty() ? "" : fmt::format(": {}", fmt::join(list, ", "));
 }
 
@@ -257,11 +262,7 @@ std::string held_out_line(const Diagnosis& d) {
 std::vector<CannotJudge> open_questions(const Diagnosis& d) {
   if (d.judged == Judged::styli_unlogged) return {{"every effect", {"sensor", "head_A_deg", "head_B_deg"}, {}}};
   std::vector<CannotJudge> out = d.cannot_judge;
-  std::erase_if(out, [&](const CannotJudge& c) {
-    return std::any_of(d.effects.begin(), d.effects.end(), [&](const DiagnosedEffect& e) {
-      return std::find(e.members.begin(), e.members.end(), c.effect) != e.members.end();
-    });
-  });
+  std::erase_if(out, [&](const CannotJudge& c) { return is_found(d, c); });
   return out;
 }
 
