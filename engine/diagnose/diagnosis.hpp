@@ -24,6 +24,12 @@ struct Workpiece;
 enum class Verdict { no_mismatch, named, one_of, unexplained, cannot_judge };
 std::string_view name(Verdict);  ///< as in the JSON: "no_mismatch"
 
+/// A value of a list that the data do not rule out beside the one that is told.
+struct OtherValue {
+  std::string value;  ///< in words: "y", "50 mm", the name of a stylus
+  double probability = 0;
+};
+
 struct DiagnosedParameter {
   std::string name, unit = {};
   double value = 0, u = 0;
@@ -32,6 +38,9 @@ struct DiagnosedParameter {
   bool plausible = true;     ///< some of the interval is inside the range that the catalogue gives
   /// what a number stands for, where that has a name: the stylus, the run of a moment; how far a word holds
   std::string called = {};
+  /// of a value out of a list: how sure it is among them, and which others are left, the likeliest first
+  double probability = 1;
+  std::vector<OtherValue> others = {};
 };
 
 /// A length between two touches, and how wrong it is.

@@ -34,9 +34,21 @@ int decimals_for(double uncertainty, double value) {
   return least > 0 ? std::clamp(static_cast<int>(-std::floor(std::log10(least) + 1e-9)), 0, kMost) : 0;
 }
 
+/// " (or y)" of a value that is not the only one left: the two likeliest others, and how many more.
+std::string or_others(const DiagnosedParameter& p) {
+  constexpr std::size_t kTold = 2;
+  if (p.others.empty()) return "";
+  std::vector<std::string> told;
+  for (const OtherValue& v : p.others)
+    if (told.size() < kTold) told.push_back(v.value);
+  if (p.others.size() > kTold) told.push_back(fmt::format("{} more", p.others.size() - kTold));
+  return fmt::format(" (or {})", fmt::join(told, ", "));
+}
+
 std::string without_uncertainty(const DiagnosedParameter& p, int decimals) {
-  if (!p.called.empty()) return plain_name(p) + " " + p.called;
-  return fmt::format("{} {:.{}f}{}", plain_name(p), p.value, p.unit == "code" ? 0 : decimals, unit_after(p));
+  const std::string value =
+      p.called.empty() ? fmt::format("{:.{}f}{}", p.value, p.unit == "code" ? 0 : decimals, unit_after(p)) : p.called;
+  return plain_name(p) + " " + value + or_others(p);
 }
 
 std::string remark(const DiagnosedParameter& p) { return p.called.empty() ? "" : " (" + p.called + ")"; }
@@ -55,7 +67,7 @@ bool lopsided(const DiagnosedParameter& p) {
   return std::min(p.value - p.low, p.high - p.value) < kShort * p.u;
 }
 
-std::string in_word(const DiagnosedParameter& p) { return plain_name(p) + " " + p.word + remark(p); }
+std::string in_word(const DiagnosedParameter& p) { return plain_name(p) + " " + p.word + or_others(p) + remark(p); }
 
 }  // namespace
 

@@ -196,6 +196,15 @@ class Diagnose(harness.Case):
                 self.assertAlmostEqual(planned[effect] / um, 1)
         self.assertIn("--design-only", self.refused("E0528", "diagnose", empty, "--machine", MACHINE))
 
+    def test_values_of_a_list_that_fit_as_well_are_told(self):
+        """Nodes every 50 mm were told as nodes every 25 mm for certain."""
+        recording = self.record("--seed", 3, "--with", "machine.map_scallops:amplitude_um=4,spacing_mm=50")
+        spacing = self.diagnosis(recording)["effects"][0]["parameters"]["spacing_mm"]
+        others = {other["value"]: other["probability"] for other in spacing["others"]}
+        self.assertEqual({f"{spacing['value']:g} mm", *others} & {"25 mm", "50 mm"}, {"25 mm", "50 mm"})
+        self.assertTrue(all(0.05 <= p <= 0.95 for p in (spacing["probability"], *others.values())), spacing)
+        self.assertLess(spacing["probability"] + sum(others.values()), 1 + 1e-9)
+
     def test_a_missing_covariate_is_named(self):
         def without_speed(row):
             del row["speed_mm_s"]

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 
 #include "engine/diagnose/explanations/catalogue.hpp"
@@ -63,6 +64,9 @@ DiagnosedParameter summary(const EffectParameter& parameter, const std::vector<M
   if (std::any_of(mixture.begin(), mixture.end(), [](const MixtureTerm& c) { return c.length; }))
     out.low = std::max(0.0, out.low);
   out.high = quantile(mixture, 0.975);
+  if (out.u == 0) out.low = out.high = out.value;
+  // What fits best need not be in the middle of what is believed.
+  if (value) out.low = std::min(out.low, *value), out.high = std::max(out.high, *value);
   out.plausible = out.high >= parameter.low && out.low <= parameter.high;
   return out;
 }
@@ -139,6 +143,7 @@ class Estimator {
     for (const int b : variants)
       logs.push_back(alike(at(b), at(likeliest)) ? log_belief(mine, evidence, b)
                                                  : -std::numeric_limits<double>::infinity());
+    listed_ = beliefs_of(mine, evidence, likeliest);
     const double total = log_sum_exp(logs);
     for (std::size_t k = 0; k < variants.size(); ++k) {
       const double weight = std::exp(logs[k] - total);
@@ -222,14 +227,52 @@ class Estimator {
       const bool place = parameter.sought == Sought::moment || parameter.sought == Sought::reading;
       out.push_back(summary(parameter, mixture, place ? mean_beside(mixture, likeliest.variant.cells[p]) : value));
       if (parameter.sought == Sought::moment) out.back().called = run_at(value);
-    } else if (!parameter.choices.empty())
-      out.push_back({.name = std::string(parameter.name),
-                     .word = std::string(parameter.choices[static_cast<std::size_t>(value - parameter.low + 0.5)])});
-    else if (!standard ||
-             (grids_[p].tried.size() > 1 && value != 0)) {  // 0 names no stylus, no tip, no place in particular
+    } else if (!parameter.choices.empty()) {
+      out.push_back({.name = std::string(parameter.name), .word = in_words(parameter, value)});
+      add_others(p, value, out.back());
+    } else if (!standard ||
+               (grids_[p].tried.size() > 1 && value != 0)) {  // 0 names no stylus, no tip, no place in particular
       out.push_back(told(parameter, {value, 0}));
       out.back().called = called(parameter, static_cast<int>(value));
+      add_others(p, value, out.back());
     }
+  }
+
+  /// Which other values of its list fit nearly as well.
+  void add_others(std::size_t p, double told_value, DiagnosedParameter& out) const {
+    constexpr double kOutOfQuestion = 0.05;
+    for (const auto& [value, belief] : listed_[p])
+      if (value == told_value)
+        out.probability = belief;
+      else if (belief >= kOutOfQuestion)
+        out.others.push_back({in_words(explanation_.effect->parameters[p], value), belief});
+    std::stable_sort(out.others.begin(), out.others.end(),
+                     [](const OtherValue& a, const OtherValue& b) { return a.probability > b.probability; });
+  }
+
+  /// The belief in each value of each parameter among the variants that change between runs as the told one does.
+  static std::vector<std::map<double, double>> beliefs_of(const Explanations& mine, const Evidence& evidence,
+                                                          int told) {
+    const Variant& like = mine.variants[told];
+    std::vector<int> compared;
+    std::vector<double> logs;
+    for (const int b : mine.list.front().variants)
+      if (mine.variants[b].change == like.change) compared.push_back(b), logs.push_back(log_belief(mine, evidence, b));
+    const double total = log_sum_exp(logs);
+    std::vector<std::map<double, double>> out(like.theta.size());
+    for (std::size_t k = 0; k < compared.size(); ++k)
+      for (std::size_t p = 0; p < out.size(); ++p)
+        out[p][mine.variants[compared[k]].theta[p]] += std::exp(logs[k] - total);
+    return out;
+  }
+
+  /// A value of a list: "y", "50 mm", the name of a stylus, "all" of them.
+  std::string in_words(const EffectParameter& parameter, double value) const {
+    if (!parameter.choices.empty())
+      return std::string(parameter.choices[static_cast<std::size_t>(value - parameter.low + 0.5)]);
+    if (const std::string name = called(parameter, static_cast<int>(value)); !name.empty()) return name;
+    if (parameter.unit != "code") return fmt::format("{:g} {}", value, parameter.unit);
+    return value == 0 ? "all" : fmt::format("{:g}", value);
   }
 
   /// Whether another value would do anything else to these touches: where a step lies along an axis, it has no moment.
@@ -387,8 +430,9 @@ class Estimator {
   const std::vector<int>& rows_;
   const Explanation& explanation_;
   std::vector<Candidate> variants_;
-  std::size_t likeliest_ = 0;         ///< of them
-  std::vector<ParameterGrid> grids_;  ///< by parameter
+  std::size_t likeliest_ = 0;                     ///< of them
+  std::vector<ParameterGrid> grids_;              ///< by parameter
+  std::vector<std::map<double, double>> listed_;  ///< by parameter: how far each of its values is believed
 };
 
 }  // namespace

@@ -19,13 +19,20 @@ Json array(const List& list, F item) {
 Json parameters(const std::vector<DiagnosedParameter>& list) {
   Json out = Json::object();
   for (const DiagnosedParameter& p : list) {
+    Json& told = out[p.name];
     if (!p.word.empty())
-      out[p.name] = {{"value", p.word}};
+      told = {{"value", p.word}};
     else
-      out[p.name] = {{"value", number(p.value)},
-                     {"u", number(p.u)},
-                     {"interval95", {number(p.low), number(p.high)}},
-                     {"plausible", p.plausible}};
+      told = {{"value", number(p.value)},
+              {"u", number(p.u)},
+              {"interval95", {number(p.low), number(p.high)}},
+              {"plausible", p.plausible}};
+    if (!p.others.empty()) {
+      told["probability"] = number(p.probability);
+      told["others"] = array(p.others, [](const OtherValue& v) {
+        return Json{{"value", v.value}, {"probability", number(v.probability)}};
+      });
+    }
   }
   return out;
 }

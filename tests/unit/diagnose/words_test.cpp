@@ -25,6 +25,14 @@ TEST_CASE("a size is told with its unit and the digits that its uncertainty bear
   which.called = "STAR_LEFT";
   CHECK(with_interval(which) == "sensor STAR_LEFT");
   CHECK(with_uncertainty(which) == "sensor STAR_LEFT");
+  DiagnosedParameter nodes{.name = "spacing_mm", .unit = "mm", .value = 25, .u = 0, .low = 25, .high = 25};
+  nodes.others = {{"50 mm", 0.3}};
+  CHECK(with_interval(nodes) == "spacing 25.0 mm (or 50 mm)");
+  nodes.others = {{"50 mm", 0.3}, {"20 mm", 0.2}, {"75 mm", 0.1}, {"100 mm", 0.1}};
+  CHECK(with_uncertainty(nodes) == "spacing 25.0 mm (or 50 mm, 20 mm, 2 more)");
+  DiagnosedParameter along{.name = "axis", .word = "x"};
+  along.others = {{"y", 0.2}};
+  CHECK(with_interval(along) == "axis x (or y)");
   DiagnosedParameter moment = size("t0_s", "s", 301.8, 4.85);
   moment.called = "in run 2";
   CHECK(with_uncertainty(moment) == "t0 301.8 ± 9.7 s (in run 2)");
