@@ -18,6 +18,11 @@ constexpr int kSteps = 4, kMostEffects = 6, kMostCells = 3, kParts = 3;
 /// Nats below the likeliest cell from which on one is not worth a closer look.
 constexpr double kFarBelow = 3;
 
+/// How many periods far from the likeliest get a closer look, and how much of what speaks for one the middle of its cell may
+/// miss: where touches come in blocks, periods that are far from each other fit alike.
+constexpr std::size_t kMostPeriods = 16;
+constexpr double kMissed = 0.5;
+
 /// Whether a change between runs stands for several of them.
 bool of_several_runs(const Variant& b) { return b.runs.high > b.runs.low + 1; }
 
@@ -51,6 +56,11 @@ bool neighbours(const Variant& a, const Variant& b, const Effect& effect) {
   return true;
 }
 
+bool has_period(const Effect& effect) {
+  return std::any_of(effect.parameters.begin(), effect.parameters.end(),
+                     [](const EffectParameter& p) { return p.sought == Sought::period; });
+}
+
 /// The likeliest divisible variants, and those beside the likeliest: the value that stands for a cell may be
 /// the wrong one.
 std::vector<int> cells_to_divide(const Explanations& all, const Explanation& e, const Evidence& evidence) {
@@ -63,6 +73,17 @@ std::vector<int> cells_to_divide(const Explanations& all, const Explanation& e, 
     const bool likely = k < kMostCells && belief(order[k]) > belief(order[0]) - kFarBelow;
     if (divisible(variant(order[k])) && (likely || neighbours(variant(order[0]), variant(order[k]), *e.effect)))
       list.push_back(order[k]);
+  }
+  if (!has_period(*e.effect)) return list;
+  std::vector<int> peaks;  // no likelier one is beside them
+  for (const int b : order) {
+    if (variant(b).axis >= 0) continue;  // finer ones are along any direction
+    if (peaks.size() == kMostPeriods || belief(b) < (1 - kMissed) * belief(order[0]) - kFarBelow) break;
+    const bool beside = std::any_of(order.begin(), std::find(order.begin(), order.end(), b),
+                                    [&](int likelier) { return neighbours(variant(likelier), variant(b), *e.effect); });
+    if (beside) continue;
+    peaks.push_back(b);
+    if (divisible(variant(b)) && std::find(list.begin(), list.end(), b) == list.end()) list.push_back(b);
   }
   return list;
 }
