@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "engine/diagnose/explanations/parameter_grid.hpp"
@@ -13,6 +14,8 @@ namespace {
 
 /// Stretches of runs that are told apart at first; where the recording speaks for one, it is divided (refine.cpp).
 constexpr std::size_t kMostChanges = 8, kMostGone = 4, kMostBetween = 3;
+/// Runs in the middle of which each may be the only bad one, as a day of a week.
+constexpr std::size_t kMostSingle = 8;
 
 /// Of several files, how long the longest takes of the whole; nothing of one.
 std::optional<double> share_of_longest_file(const RecordedTouches& t, const std::vector<int>& rows) {
@@ -125,8 +128,14 @@ std::vector<Variant> with_changes(std::vector<Variant> list, const Effect& effec
   for (const LaterRun& at : in_stretches(later, kMostChanges)) add(at, {.from = at.from_run});
   for (const LaterRun& at : in_stretches(later, moment ? 0 : kMostGone)) add(at, {.until = at.from_run});
   const std::vector<LaterRun> ends = in_stretches(later, kMostBetween);
+  std::set<std::pair<int, int>> between;
+  const auto came_and_went = [&](const LaterRun& from, const LaterRun& until) {
+    if (between.emplace(from.from_run, until.from_run).second) add(from, {from.from_run, until.from_run});
+  };
   for (std::size_t k = 0; k < ends.size(); ++k)
-    for (std::size_t j = k + 1; j < ends.size(); ++j) add(ends[k], {ends[k].from_run, ends[j].from_run});
+    for (std::size_t j = k + 1; j < ends.size(); ++j) came_and_went(ends[k], ends[j]);
+  for (std::size_t k = 0; k + 1 < later.size() && later.size() < kMostSingle; ++k)
+    came_and_went(later[k], later[k + 1]);
   return list;
 }
 

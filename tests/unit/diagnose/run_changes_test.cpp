@@ -44,3 +44,15 @@ TEST_CASE("what settles begins once, in each file, or in one of several that hav
   CHECK(changes(3, 3) == Changes{{0, 0, 0}, {0, 0, 1}, {0, 2, 1}, {2, 3, 1}, {3, 0, 1}});
   CHECK(changes(2, 4) == Changes{{0, 0, 0}, {0, 0, 1}, {0, 3, 1}, {3, 0, 1}});
 }
+
+TEST_CASE("of the runs of a week each may be the only one in which something was") {
+  Planted at(1);
+  for (const int runs : {3, 6}) {
+    for (int i = 0; i < at.count(); ++i) at.scene(i).run = 1 + i * runs / at.count();
+    std::set<std::array<int, 2>> found;
+    for (const Variant& v : named_explanations(at.c.touches, at.c.rows, {"probe.tip_radius"}).variants)
+      found.insert({v.change.from, v.change.until});
+    for (int run = 2; run < runs; ++run) CHECK(found.contains({run, run + 1}));
+    CHECK(found.contains({runs, 0}));
+  }
+}
