@@ -1,7 +1,7 @@
 // Gross outliers: touches so far from what all others predict that they are dirt, burrs or early triggers.
 // They are left out, or they would spoil the fit. Dirt strikes single touches by chance, though: touches next
-// to each other, of one stylus or facing one way one after the other, or of one place again and again, that are all off, are a
-// mismatch with a cause, and so are those that a sudden change puts where they are: they stay in.
+// to each other, of one stylus or facing one way one after the other, of one place again and again, or all of one feature, that
+// are off, are a mismatch with a cause, and so are those that a sudden change puts where they are: they stay in.
 #include "engine/diagnose/baseline/outliers.hpp"
 
 #include <algorithm>
@@ -78,6 +78,33 @@ Pairs followers(const RecordedTouches& t, Key key) {
   return out;
 }
 
+/// The probability that of n things that each come so with this share, `count` or more do.
+double binomial_tail(int n, double share, int count) {
+  double sum = 0;
+  for (int k = count; k <= n; ++k)
+    sum += std::exp(std::lgamma(n + 1.0) - std::lgamma(k + 1.0) - std::lgamma(n - k + 1.0)) * std::pow(share, k) *
+        std::pow(1 - share, n - k);
+  return sum;
+}
+
+/// Outliers of a feature that has more of them than chance gives to any: it does not lie where it is said to.
+std::vector<char> of_one_feature(const RecordedTouches& t, const std::vector<char>& masked) {
+  std::map<int, int> touches, outliers;
+  int all = 0;
+  for (std::size_t i = 0; i < masked.size(); ++i) {
+    const int feature = t.touches[i].scene.feature;
+    ++touches[feature], outliers[feature] += masked[i], all += masked[i];
+  }
+  std::vector<char> out(masked.size(), 0);
+  for (const auto& [feature, count] : outliers) {
+    double chance = 0;  // that any feature has so many
+    for (const auto& [other, n] : touches) chance += binomial_tail(all, double(n) / double(masked.size()), count);
+    if (count <= kLeastPairs || chance > kChance) continue;
+    for (std::size_t i = 0; i < masked.size(); ++i) out[i] |= masked[i] && t.touches[i].scene.feature == feature;
+  }
+  return out;
+}
+
 /// Outliers that are no chance: in more pairs of neighbours than chance makes.
 std::vector<char> systematic(const RecordedTouches& t, const RecordingRow* rows, const std::vector<char>& masked) {
   const auto place_on_part = [&](const RecordedTouch& touch) {
@@ -105,7 +132,7 @@ std::vector<char> systematic(const RecordedTouches& t, const RecordingRow* rows,
                              either};
   const double n = static_cast<double>(masked.size()),
                m = static_cast<double>(std::count(masked.begin(), masked.end(), 1));
-  std::vector<char> out(masked.size(), 0);
+  std::vector<char> out = of_one_feature(t, masked);
   for (const Pairs& pairs : relations) {
     int both = 0;
     for (const auto& [a, b] : pairs) both += masked[a] && masked[b] ? 1 : 0;
