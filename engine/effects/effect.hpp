@@ -182,6 +182,7 @@ struct Effect {
   int draws = 0;                 ///< how many numbers each time
   bool linear_in_draws = false;  ///< for given parameters; no displacement when all draws are zero
   bool only_spread = false;      ///< no law but a spread: of what is drawn so freely, much else may look like it
+  bool lasting = false;          ///< of the part itself: seldom new between two runs, or gone
   /// What is impossible about values that are each possible by themselves, "" if nothing; none: any go together.
   std::string_view (*contradiction)(const double* theta) = nullptr;
   /// d of one touch, mm in W. theta: parameter values in the units of `parameters`, in their order; z: the draws.

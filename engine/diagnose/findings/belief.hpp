@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/diagnose/diagnosis.hpp"
+#include "engine/effects/effect.hpp"
 
 namespace abbe::diagnose {
 
@@ -21,6 +22,8 @@ inline constexpr double kTold = 0.9;
 /// - of the period of a scale, where touches of the same direction are at the same phase;
 /// - of an effect that has no law but a spread: it fits whatever differs so freely;
 /// - where it does not predict touches better that it was not fitted to;
+/// - that is new within a setup, or gone, although it belongs to the part;
+/// - of several sizes none of which is surely other than 0: they stand in for something else;
 /// - with a size outside the catalogue's range: rather the name is wrong than the size;
 /// - of scatter, where no touch was repeated or repeats agree in it: it may be a pattern too fine for the recording.
 inline constexpr double kDoubted = 0.5;
@@ -34,5 +37,8 @@ bool predicts_better(const std::optional<Improvement>&);
 
 /// Whether every size is inside the catalogue's range.
 bool all_plausible(const std::vector<DiagnosedParameter>&);
+
+/// Whether it has several sizes and the interval of each holds 0.
+bool none_is_sure(const Effect&, const std::vector<DiagnosedParameter>&);
 
 }  // namespace abbe::diagnose

@@ -45,6 +45,13 @@ inline constexpr const char* kNearlyCancelled =
     " What it does is nearly undone by what else was found: two large faults that cancel each other are seldom, and one of "
     "another kind may do what is left of them. Mend neither before a measurement shows it by itself.";
 
+inline constexpr const char* kNoneIsSure =
+    " None of its sizes by itself is surely other than 0: together they may stand in for something else.";
+
+inline constexpr const char* kSeldomNew =
+    " A part seldom changes its form between two runs: a tip that was changed or damaged in between may look like it. Touch "
+    "the same places in another orientation of the head, or with the tip that was used before.";
+
 inline constexpr const char* kSamePhase =
     " Wherever touches have the same direction, the scale was at the same phase: a pattern over direction would look the "
     "same. Repeat it with the part moved by a third of the period.";

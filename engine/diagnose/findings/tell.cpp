@@ -55,10 +55,11 @@ bool is_same_phase(const Case& c, const Finding& f) {
 
 /// Why a name is believed by half at most.
 struct Doubts {
-  bool rounding = false, same_phase = false, cancelled = false, large_errors = false;
+  bool rounding = false, same_phase = false, cancelled = false, large_errors = false, none_sure = false,
+       lasting = false;
   bool others = false;  ///< that have no sentence of their own here, or one that stands elsewhere
 
-  bool any() const { return rounding || same_phase || cancelled || large_errors || others; }
+  bool any() const { return rounding || same_phase || cancelled || large_errors || none_sure || lasting || others; }
 };
 
 /// `moved`: what each finding does (displacements.hpp). `e`: what is told of finding `k` so far.
@@ -70,9 +71,12 @@ Doubts doubts_of(const Case& c, const SearchResult& result, std::size_t k, const
   d.same_phase = is_same_phase(c, f);
   d.cancelled = nearly_cancelled(moved, k);
   d.large_errors = !baseline.known && baseline.geometry_scale >= kLargeErrors;
+  const Effect& effect = *c.explanations.list[f.explanation].effect;
+  d.none_sure = none_is_sure(effect, e.parameters);
+  d.lasting = effect.lasting && e.change.front().any() && begins_within_a_setup(c, e.change.front());
   const bool something_else = result.other || result.adequacy < kInadequate;
   d.others = something_else || of_several_sizes(f.sizes) || !judged(c, f) || !all_plausible(e.parameters) ||
-      c.explanations.list[f.explanation].effect->only_spread;
+      effect.only_spread;
   return d;
 }
 
@@ -119,7 +123,8 @@ void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
     e.sentence = explanation_sentence(titles, e.parameters, "this recording", change, unsure, /*beside=*/k > 0) +
         pattern_beside(c, f) + not_of_one_size(f) +
         (doubts.large_errors ? beside_large_errors(out.baseline.geometry_scale) : "") +
-        (doubts.same_phase ? kSamePhase : "") + (doubts.cancelled ? kNearlyCancelled : "") + much_like_it(effect) +
+        (doubts.same_phase ? kSamePhase : "") + (doubts.cancelled ? kNearlyCancelled : "") +
+        (doubts.none_sure ? kNoneIsSure : "") + (doubts.lasting ? kSeldomNew : "") + much_like_it(effect) +
         what_does_nearly_the_same(effect, variant, e.parameters);
     if (unproven && !doubts.any() && f.probability > kDoubted) e.sentence += unless_said(out.effects, kUnproven);
     for (const std::string& note : {whose_coordinates(c, effect), whose_direction(effect), whose_clock(c, effect),

@@ -38,7 +38,10 @@ void share_belief(const Explanation& e, std::vector<Variant>& variants) {
     const Variant& b = variants[k];
     (b.change.any() ? changing : constant) += weight(b);
   }
-  const double share = changing == 0 ? 0 : constant == 0 ? 1 : kPriorChange;
+  const double share = changing == 0  ? 0
+      : constant == 0                 ? 1
+      : e.effect && e.effect->lasting ? kPriorChangeOfLasting
+                                      : kPriorChange;
   for (const int k : e.variants) {
     Variant& b = variants[k];
     b.weight = weight(b) * (b.change.any() ? share / changing : (1 - share) / constant);

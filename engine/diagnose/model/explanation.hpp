@@ -113,6 +113,8 @@ struct Explanations {
 inline constexpr double kPriorCatalogue = 0.8, kPriorOther = 0.2;
 /// Belief before the data that what is found is new in a later run, of what may be in all.
 inline constexpr double kPriorChange = 0.1;
+/// The same of what belongs to the part: its form.
+inline constexpr double kPriorChangeOfLasting = 0.005;
 
 /// Belief in each variant of an explanation: the same for each group of parameters, and within a group for each
 /// variant, but for those that change between runs, which hold a tenth together. Of a direction, half is for any, and half

@@ -122,6 +122,7 @@ constinit const Effect kPartForm{
     .stage = Stage::part,
     .needs = Covariate::normal | Covariate::part_frame,
     .parameters = kPartFormParameters,
+    .lasting = true,
     .displace = part_form,
 };
 

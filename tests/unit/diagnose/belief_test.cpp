@@ -16,6 +16,16 @@ TEST_CASE("a gain on touches left out counts beyond its standard error, and wher
   CHECK_FALSE(predicts_better(farther));
 }
 
+TEST_CASE("of several sizes one must be other than 0, of one that is what was found") {
+  const Effect& clamping = *find_effect("part.clamping");
+  const auto size = [](const char* name, double low, double high) {
+    return DiagnosedParameter{.name = name, .unit = "um", .low = low, .high = high};
+  };
+  CHECK(none_is_sure(clamping, {size("bow_um", -26, 27), size("twist_um", -1, 17)}));
+  CHECK_FALSE(none_is_sure(clamping, {size("bow_um", -26, 27), size("twist_um", 1, 17)}));
+  CHECK_FALSE(none_is_sure(clamping, {size("bow_um", -2, 2), size("neutral_mm", -3, 4)}));
+}
+
 TEST_CASE("a machine that is none of its specification counts as a mismatch, named or not") {
   Diagnosis in_order;
   in_order.baseline.geometry_scale = 3.5;  // no recording without a mismatch was seen to ask for as much
