@@ -242,6 +242,62 @@ class Traps(harness.Case):
             self.assertIn("machine.step", said["effects"][0]["members"])
             self.assertNotIn(["noise.outliers"], [e["members"] for e in said["effects"]])
 
+    def test_one_ball_beside_its_certificate_is_no_dirt(self):
+        """Of every placement the two touches along the shift were left out, which are others where the plate is turned."""
+        turned = {1: lambda x, y, z: (x, y, z), 2: lambda x, y, z: (-y, x, z), 3: lambda x, y, z: (x, 0.8 * y - 0.6 * z, 0.6 * y + 0.8 * z)}
+        normals = ((0, 0, 1), (1, 0, 0), (0, 1, 0), (-1, 0, 0), (0, -1, 0))
+        files = []
+        for setup, turn in turned.items():
+            lines = ["DMISMN/'twelve balls',4.0", "UNITS/MM,ANGDEC", "SNSET/APPRCH,3", "SNSET/RETRCT,3", "S(P)=SNSDEF/PROBE,INDEX,POL,0,0,0,0,-1,100,4",
+                     "SNSLCT/S(P)", "D(R)=TRANS/XORIG,800,YORIG,500,ZORIG,-500"]
+            for i, j in itertools.product(range(4), range(3)):
+                centre = turn(100 * i - 150, 100 * j - 100, 0)
+                lines += [f"GOTO/{','.join(map(str, (*centre[:2], centre[2] + 60)))}", f"F(B{i}{j})=FEAT/SPHERE,OUTER,CART,{','.join(map(str, centre))},{2 * RADIUS}",
+                          f"MEAS/SPHERE,F(B{i}{j}),5"]
+                lines += ["PTMEAS/CART," + ",".join(str(v) for v in (*(c + RADIUS * n for c, n in zip(centre, normal)), *normal)) for normal in normals]
+                lines += ["ENDMES"]
+            self.abbe("record", self.write(f"plate{setup}.dmi", "\n".join([*lines, "ENDFIL", ""])), "--machine", PORTAL, "--seed", 1, "--setup", setup,
+                      "-o", f"plate{setup}.csv")
+            shift = turn(0.004, 0, 0)
+
+            def shifted(row):
+                out = sum(s * float(row["n" + a]) for s, a in zip(shift, "xyz")) if row["feature"] == "B11" else 0
+                return farther(row, 1000 * out) | {"time_s": str(float(row["time_s"]) + 2000 * setup)}
+            files.append(self.changed(self.folder / f"plate{setup}.csv", shifted, f"shifted{setup}.csv"))
+        text = "".join(f.read_text() if k == 0 else "\n".join(f.read_text().split("feature,", 1)[1].splitlines()[1:]) + "\n" for k, f in enumerate(files))
+        said = self.diagnosis(self.write("plate.csv", "# surfaces: calibrated\n" + text), PORTAL)
+        self.assertNotIn(["noise.outliers"], [e["members"] for e in said["effects"]])
+        self.assertEqual((said["verdict"], said["unexplained"]["factor"]), ("unexplained", "feature"))
+        self.assertIn("B11", json.dumps(said["location"]))
+
+    def test_a_new_form_of_the_part_may_be_a_new_tip(self):
+        """A tip that was damaged between two runs was told as balls that changed their form, for certain."""
+        self.write("balls.dmi", program(((0, 0),)))
+        files = [self.record("--seed", 2, "--run", run, *options, name=f"run{run}.csv", machine=PORTAL)
+                 for run, options in ((1, ()), (2, ("--with", "part.form:three_lobe_um=3")))]
+        said = json.loads(self.abbe("diagnose", *files, "--machine", PORTAL, "--format", "json").stdout)
+        form = next(e for e in said["effects"] if e["members"][0] == "part.form")
+        self.assertEqual(form["new_in_run"][0], 2)
+        self.assertLessEqual(form["probability"], 0.5)
+        self.assertIn("a tip that was changed or damaged in between may look like it", form["sentence"])
+
+    def test_periods_that_fit_alike_are_told(self):
+        """Of blocks of touches with pauses in between, several periods tell the same: one was told for certain."""
+        lines = plate(lambda *_: (0, 0, 0), 3, sd_um=0.001).splitlines()
+        rows = [dict(zip(lines[2].split(","), line.split(","))) for line in lines[3:]]
+        blocks = [row | {"touch": str(18 * k + i + 1), "time_s": f"{960 * k + 4 * i:g}"} for k in range(8) for i, row in enumerate(rows[45:63])]
+        noise = random.Random(8)
+
+        def swung(row):
+            return farther(row | {f"enc_{a}": row[a] for a in "xyz"}, 2.6 * float(row["nx"]) * math.sin(2 * math.pi * float(row["time_s"]) / 3000) + noise.gauss(0, 0.4))
+        header = lines[2].split(",")
+        text = "\n".join([*lines[:3], *(",".join(row[c] for c in header) for row in map(swung, blocks))]) + "\n"
+        said = self.diagnosis(self.write("blocks.csv", text), PORTAL)
+        period = said["effects"][0]["parameters"]["period_s"]
+        self.assertEqual(said["effects"][0]["members"][0], "thermal.cycle")
+        self.assertLess(period["interval95"][0], 3100)
+        self.assertGreater(period["interval95"][1], 2900)
+
     def test_few_outliers_are_told_as_what_they_look_like(self):
         for seed, certain in ((4, False), (3, True)):
             dirt, = self.diagnosis(self.record("--seed", seed, "--with", "noise.outliers:share=0.01,size_um=6"))["effects"]
