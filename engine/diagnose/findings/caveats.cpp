@@ -41,6 +41,18 @@ std::string whose_coordinates(const Case& c, const Effect& effect) {
   return " Places on the part are counted from the centre of its targets; for its own coordinates, in which a program would simulate it, give --program.";
 }
 
+std::string warmer_in_one_placement(const Case& c) {
+  if (c.touches.known & static_cast<unsigned>(Covariate::part_temperature)) return "";
+  return " A part that was warmer or colder in one placement looks like this, too: log temp_part_C.";
+}
+
+std::string warmer_in_one_placement(const Case& c, const Effect& effect, const Variant& variant) {
+  if (effect.stage != Stage::part) return "";
+  for (std::size_t p = 0; p < effect.parameters.size(); ++p)
+    if (effect.parameters[p].sought == Sought::setup && variant.theta[p] > 0) return warmer_in_one_placement(c);
+  return "";
+}
+
 std::string much_like_it(const Effect& effect) {
   if (!effect.only_spread) return "";
   return fmt::format(" It has no law but a spread, and much else looks like that. What would tell: {}.",

@@ -38,6 +38,11 @@ std::string whose_clock(const Case&, const Effect&);
 /// Whether the size of a parameter that is told goes by a value that nobody logged: which columns are missing.
 std::string whose_surroundings(const Case&, const Effect&, const Variant&, const std::vector<DiagnosedParameter>& told);
 
+/// That the part may have been warmer in one placement, where nobody logged how warm it was.
+std::string warmer_in_one_placement(const Case&);
+/// The same beside what the part does in one placement only.
+std::string warmer_in_one_placement(const Case&, const Effect&, const Variant&);
+
 /// The note, or "" where one of these has it already: an answer says once what holds for several of its effects.
 std::string unless_said(const std::vector<DiagnosedEffect>&, const std::string& note);
 

@@ -127,8 +127,9 @@ void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
         (doubts.none_sure ? kNoneIsSure : "") + (doubts.lasting ? kSeldomNew : "") + much_like_it(effect) +
         what_does_nearly_the_same(effect, variant, e.parameters);
     if (unproven && !doubts.any() && f.probability > kDoubted) e.sentence += unless_said(out.effects, kUnproven);
-    for (const std::string& note : {whose_coordinates(c, effect), whose_direction(effect), whose_clock(c, effect),
-                                    whose_surroundings(c, effect, variant, e.parameters)})
+    for (const std::string& note :
+         {whose_coordinates(c, effect), whose_direction(effect), whose_clock(c, effect),
+          whose_surroundings(c, effect, variant, e.parameters), warmer_in_one_placement(c, effect, variant)})
       e.sentence += unless_said(out.effects, note);
     if (change.in_each_file)
       e.sentence +=

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "engine/diagnose/findings/belief.hpp"
+#include "engine/diagnose/findings/caveats.hpp"
 #include "engine/diagnose/findings/locate.hpp"
 #include "engine/diagnose/model/precision.hpp"
 #include "engine/diagnose/planning/question.hpp"
@@ -58,6 +59,9 @@ std::string to_check_certificate(const Case& c, Factor factor) {
   return "Check what is given of these features first, which costs no measurement: a wrong figure of a certificate looks like this. ";
 }
 
+const std::string kClampAnew =
+    "Clamp the part anew in the same place and repeat: what comes back is the part, what does not is its clamping. Give it a new setup.";
+
 /// What makes a pattern without a name is narrowed down by changing what it may belong to.
 std::string to_follow_a_pattern(const Case& c, Factor factor) {
   if (factor == Factor::feature && one_after_the_other(c))
@@ -75,9 +79,8 @@ std::string to_follow_a_pattern(const Case& c, Factor factor) {
       return "Repeat every orientation after a visit elsewhere: what comes back is the head's geometry, what does not is its indexing. Qualify anew for what is left.";
     case Factor::sensor:
       return "Qualify the stylus anew and repeat: what vanishes was its qualification or a loose joint, what stays is its bending or its form.";
-    case Factor::setup:
-    case Factor::feature:
-      return "Clamp the part anew in the same place and repeat: what comes back is the part, what does not is its clamping. Give it a new setup.";
+    case Factor::setup: return kClampAnew + warmer_in_one_placement(c);
+    case Factor::feature: return kClampAnew;
     case Factor::run:
       return "Repeat the run unchanged: what comes back goes with the sequence, what does not was of that occasion.";
     case Factor::temperature:

@@ -69,6 +69,18 @@ TEST_CASE("a calibrated feature that strays may have a wrong figure in its certi
   CHECK_FALSE(p.says().starts_with("Check"));
 }
 
+TEST_CASE("where a placement is odd the part may have been warm in it") {
+  LeavesMore p;
+  p.result.findings.clear();
+  Explanation& of_setups = p.c.explanations.list.emplace_back();
+  of_setups.factor = Factor::setup;
+  p.result.other = Finding{};
+  p.result.other->explanation = static_cast<int>(p.c.explanations.list.size()) - 1;
+  CHECK(p.says().find("temp_part_C") == std::string::npos);
+  p.c.touches.known &= ~static_cast<unsigned>(Covariate::part_temperature);
+  CHECK(p.says().find("log temp_part_C") != std::string::npos);
+}
+
 TEST_CASE("files of one run hide what is new in one of them") {
   LeavesMore p;
   const std::string told = "All files have the same run";
