@@ -80,10 +80,14 @@ Pairs followers(const RecordedTouches& t, Key key) {
 
 /// The probability that of n things that each come so with this share, `count` or more do.
 double binomial_tail(int n, double share, int count) {
+  if (share >= 1) return 1;
+  double term = std::exp(std::lgamma(n + 1.0) - std::lgamma(count + 1.0) - std::lgamma(n - count + 1.0)) *
+      std::pow(share, count) * std::pow(1 - share, n - count);
   double sum = 0;
-  for (int k = count; k <= n; ++k)
-    sum += std::exp(std::lgamma(n + 1.0) - std::lgamma(k + 1.0) - std::lgamma(n - k + 1.0)) * std::pow(share, k) *
-        std::pow(1 - share, n - k);
+  for (int k = count; k <= n; ++k) {
+    sum += term;
+    term *= double(n - k) / (k + 1) * share / (1 - share);
+  }
   return sum;
 }
 
@@ -97,9 +101,10 @@ std::vector<char> of_one_feature(const RecordedTouches& t, const std::vector<cha
   }
   std::vector<char> out(masked.size(), 0);
   for (const auto& [feature, count] : outliers) {
+    if (count <= kLeastPairs) continue;
     double chance = 0;  // that any feature has so many
     for (const auto& [other, n] : touches) chance += binomial_tail(all, double(n) / double(masked.size()), count);
-    if (count <= kLeastPairs || chance > kChance) continue;
+    if (chance > kChance) continue;
     for (std::size_t i = 0; i < masked.size(); ++i) out[i] |= masked[i] && t.touches[i].scene.feature == feature;
   }
   return out;
