@@ -75,15 +75,15 @@ std::vector<int> cells_to_divide(const Explanations& all, const Explanation& e, 
       list.push_back(order[k]);
   }
   if (!has_period(*e.effect)) return list;
-  std::vector<int> peaks;  // no likelier one is beside them
-  for (const int b : order) {
-    if (variant(b).axis >= 0) continue;  // finer ones are along any direction
-    if (peaks.size() == kMostPeriods || belief(b) < (1 - kMissed) * belief(order[0]) - kFarBelow) break;
-    const bool beside = std::any_of(order.begin(), std::find(order.begin(), order.end(), b),
-                                    [&](int likelier) { return neighbours(variant(likelier), variant(b), *e.effect); });
+  std::size_t peaks = 0;  // no likelier one is beside them
+  for (auto at = order.begin(); at != order.end() && peaks < kMostPeriods; ++at) {
+    if (variant(*at).axis >= 0) continue;  // finer ones are along any direction
+    if (belief(*at) < (1 - kMissed) * belief(order[0]) - kFarBelow) break;
+    const bool beside = std::any_of(
+        order.begin(), at, [&](int likelier) { return neighbours(variant(likelier), variant(*at), *e.effect); });
     if (beside) continue;
-    peaks.push_back(b);
-    if (divisible(variant(b)) && std::find(list.begin(), list.end(), b) == list.end()) list.push_back(b);
+    ++peaks;
+    if (divisible(variant(*at)) && std::find(list.begin(), list.end(), *at) == list.end()) list.push_back(*at);
   }
   return list;
 }

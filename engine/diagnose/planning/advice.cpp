@@ -59,7 +59,7 @@ std::string to_check_certificate(const Case& c, Factor factor) {
   return "Check what is given of these features first, which costs no measurement: a wrong figure of a certificate looks like this. ";
 }
 
-const std::string kClampAnew =
+constexpr const char* kClampAnew =
     "Clamp the part anew in the same place and repeat: what comes back is the part, what does not is its clamping. Give it a new setup.";
 
 /// What makes a pattern without a name is narrowed down by changing what it may belong to.

@@ -24,6 +24,13 @@ struct LeavesMore : Planted {
     c.explanations.unjudged.push_back({find_effect(effect), missing, logged ? missing : 0});
     if (!logged) c.touches.known &= ~missing;
   }
+  /// Instead of the tip's radius: a pattern over a factor.
+  void find_pattern_over(Factor factor) {
+    result.findings.clear();
+    c.explanations.list.emplace_back().factor = factor;
+    result.other = Finding{};
+    result.other->explanation = static_cast<int>(c.explanations.list.size()) - 1;
+  }
   std::string says(double believed = 1) const {
     Diagnosis told;
     told.effects.push_back({{"probe.tip_radius"}, believed, {}, {}});
@@ -59,11 +66,7 @@ TEST_CASE("what was logged and is the same throughout comes last") {
 
 TEST_CASE("a calibrated feature that strays may have a wrong figure in its certificate") {
   LeavesMore p;
-  p.result.findings.clear();
-  Explanation& of_features = p.c.explanations.list.emplace_back();
-  of_features.factor = Factor::feature;
-  p.result.other = Finding{};
-  p.result.other->explanation = static_cast<int>(p.c.explanations.list.size()) - 1;
+  p.find_pattern_over(Factor::feature);
   CHECK(p.says().starts_with("Check what is given of these features first"));
   p.c.baseline.surfaces = Surfaces::unknown;
   CHECK_FALSE(p.says().starts_with("Check"));
@@ -71,11 +74,7 @@ TEST_CASE("a calibrated feature that strays may have a wrong figure in its certi
 
 TEST_CASE("where a placement is odd the part may have been warm in it") {
   LeavesMore p;
-  p.result.findings.clear();
-  Explanation& of_setups = p.c.explanations.list.emplace_back();
-  of_setups.factor = Factor::setup;
-  p.result.other = Finding{};
-  p.result.other->explanation = static_cast<int>(p.c.explanations.list.size()) - 1;
+  p.find_pattern_over(Factor::setup);
   CHECK(p.says().find("temp_part_C") == std::string::npos);
   p.c.touches.known &= ~static_cast<unsigned>(Covariate::part_temperature);
   CHECK(p.says().find("log temp_part_C") != std::string::npos);
