@@ -2,71 +2,72 @@
 
 #include <algorithm>
 #include <cstddef>
-
-#include "engine/lanes/for_lanes.hpp"
+#include <vector>
 
 namespace abbe::diagnose {
 
 namespace {
 
-/// Terms that are added to a column of the result while it is read and written once.
-constexpr std::ptrdiff_t kTerms = 4;
-/// Numbers of a that stay next to the processor while they are used for all columns: 16 kB.
-constexpr std::ptrdiff_t kInCache = 2048;
+/// Sums that are kept in registers: of so many columns of the result, so many vectors of rows.
+constexpr std::ptrdiff_t kColumns = 6, kVectors = 2;
+/// Columns that are made before the next, and terms that are added to them at once: what is used again stays next to the
+/// processor.
+constexpr std::ptrdiff_t kTogether = 16 * kColumns, kTerms = 256;
 
-/// Columns of the result that are made before the next: an even number, a pair at a time.
-constexpr std::ptrdiff_t kColumns = 64;
-
-/// Two columns of the result, and of b.
-struct Columns {
-  const double *b, *next_b;
-  double *out, *next_out;
+/// Some rows of some columns of the result.
+struct Tile {
+  const double* b[kColumns];
+  double* sums[kColumns];
 };
 
-/// Adds the terms first to last - 1, whose number is a multiple of `terms`, to n rows of two columns.
-template <std::ptrdiff_t terms>
-[[gnu::always_inline]] inline void add_terms(std::ptrdiff_t n, const double* a, std::ptrdiff_t first,
-                                             std::ptrdiff_t last, const Columns& c) {
-  double *const out = c.out, *const next_out = c.next_out;
-  for (std::ptrdiff_t k = first; k < last; k += terms) {
-    const double* const of_a = a + k * n;
-    double b[terms], next_b[terms];  // or they would be read again after each number that is written
-    std::copy_n(c.b + k, terms, b);
-    std::copy_n(c.next_b + k, terms, next_b);
-    ABBE_NO_ALIAS
-    for (std::ptrdiff_t i = 0; i < n; ++i) {
-      double sum = out[i], next_sum = next_out[i];
-      for (std::ptrdiff_t term = 0; term < terms; ++term) {
-        sum += of_a[term * n + i] * b[term];
-        next_sum += of_a[term * n + i] * next_b[term];
-      }
-      out[i] = sum, next_out[i] = next_sum;
-    }
-  }
+/// Adds terms, of which a holds the rows of the first, then of the next.
+template <int width>
+[[gnu::always_inline]] inline void add_terms(std::ptrdiff_t terms, const double* a, const Tile& tile) {
+  using Numbers = typename VectorOf<width>::type;
+  Numbers sums[kColumns][kVectors];
+  for (std::ptrdiff_t c = 0; c < kColumns; ++c)
+    for (std::ptrdiff_t v = 0; v < kVectors; ++v) sums[c][v] = reinterpret_cast<const Numbers*>(tile.sums[c])[v];
+  for (std::ptrdiff_t k = 0; k < terms; ++k, a += kVectors * width)
+    for (std::ptrdiff_t c = 0; c < kColumns; ++c)
+      for (std::ptrdiff_t v = 0; v < kVectors; ++v) sums[c][v] += reinterpret_cast<const Numbers*>(a)[v] * tile.b[c][k];
+  for (std::ptrdiff_t c = 0; c < kColumns; ++c)
+    for (std::ptrdiff_t v = 0; v < kVectors; ++v) reinterpret_cast<Numbers*>(tile.sums[c])[v] = sums[c][v];
+}
+
+/// The rows of each tile one after the other, in each its terms; rows of 0 fill the last.
+std::vector<double> by_tile(const Matrix& a, std::ptrdiff_t rows) {
+  const std::ptrdiff_t tiles = (a.rows() + rows - 1) / rows;
+  std::vector<double> out(static_cast<std::size_t>(tiles * rows * a.cols()));
+  for (std::ptrdiff_t k = 0; k < a.cols(); ++k)
+    for (std::ptrdiff_t t = 0; t < tiles; ++t)
+      std::copy_n(&a(t * rows, k), std::min(rows, a.rows() - t * rows), out.data() + (t * a.cols() + k) * rows);
+  return out;
 }
 
 }  // namespace
 
-Matrix product(const Matrix& a, const Matrix& b) {
-  const std::ptrdiff_t n = a.rows(), all = a.cols(), columns = b.cols(),
-                       together =
-                           kTerms * std::max<std::ptrdiff_t>(1, kInCache / kTerms / std::max<std::ptrdiff_t>(n, 1));
-  Matrix out = Matrix::Zero(n, columns);
-  Vector beside = Vector::Zero(n);  // columns go in pairs
-  on_lanes([=, a = a.data(), b = b.data(), out = out.data(), beside = beside.data()] {
-    for (std::ptrdiff_t begin = 0; begin < columns; begin += kColumns)
-      for (std::ptrdiff_t first = 0; first < all; first += together) {
-        const std::ptrdiff_t last = std::min(all, first + together), whole = last - (last - first) % kTerms;
-        for (std::ptrdiff_t c = begin; c < std::min(columns, begin + kColumns); c += 2) {
-          const bool single = c + 1 == columns;
-          const double* const of_b = b + c * all;
-          double* const of_out = out + c * n;
-          const Columns pair{of_b, single ? of_b : of_b + all, of_out, single ? beside : of_out + n};
-          add_terms<kTerms>(n, a, first, whole, pair);
-          add_terms<1>(n, a, whole, last, pair);
-        }
-      }
-  });
+Matrix product(const Matrix& a, const Matrix& b, int width) {
+  const std::ptrdiff_t n = a.rows(), all = a.cols(), columns = b.cols(), rows = kVectors * width,
+                       tiles = (n + rows - 1) / rows;
+  const std::vector<double> terms = by_tile(a, rows);
+  Matrix out(n, columns), sums(tiles * rows, kTogether);
+  for (std::ptrdiff_t begin = 0; begin < columns; begin += kTogether) {
+    const std::ptrdiff_t end = std::min(columns, begin + kTogether);
+    sums.setZero();
+    on_vectors(width, [&](auto constant) {
+      for (std::ptrdiff_t first = 0; first < all; first += kTerms)
+        for (std::ptrdiff_t t = 0; t < tiles; ++t)
+          for (std::ptrdiff_t c = begin; c < end; c += kColumns) {
+            Tile tile;
+            for (std::ptrdiff_t i = 0; i < kColumns; ++i) {  // beyond the last it is made once more, for nobody
+              tile.b[i] = b.data() + std::min(c + i, columns - 1) * all + first;
+              tile.sums[i] = sums.data() + (c - begin + i) * tiles * rows + t * rows;
+            }
+            add_terms<constant>(std::min(kTerms, all - first), terms.data() + (t * all + first) * rows, tile);
+          }
+    });
+    out.middleCols(begin, end - begin) = sums.topLeftCorner(n, end - begin);
+  }
   return out;
 }
 

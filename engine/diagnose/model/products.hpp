@@ -3,11 +3,12 @@
 #pragma once
 
 #include "engine/diagnose/model/decompositions.hpp"
+#include "engine/lanes/vectors.hpp"
 
 namespace abbe::diagnose {
 
-/// a b.
-Matrix product(const Matrix& a, const Matrix& b);
+/// a b. `width`: of the vectors in which it is made, at most that of the processor (lanes/vectors.hpp).
+Matrix product(const Matrix& a, const Matrix& b, int width = vector_width());
 /// a' b.
 Matrix transposed_product(const Matrix& a, const Matrix& b);
 
