@@ -4,11 +4,31 @@
 #include <exception>
 #include <new>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 #include "programs/commands/commands.hpp"
 #include "programs/options.hpp"
 #include "programs/terminal.hpp"
 
+namespace {
+
+/// Matrices of some megabytes come and go all the time. Given back to the system each time and asked for anew, their pages
+/// cost a third of a diagnosis of 125 touches (docs/benchmarks.md).
+void keep_freed_memory() {
+#ifdef __GLIBC__
+  constexpr int kMegabyte = 1 << 20;
+  mallopt(M_MMAP_THRESHOLD, 32 * kMegabyte);  // the most that it takes
+  mallopt(M_TRIM_THRESHOLD, 256 * kMegabyte);
+  mallopt(M_TOP_PAD, 16 * kMegabyte);
+#endif
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
+  keep_freed_memory();
 #ifdef SIGXFSZ
   std::signal(SIGXFSZ, SIG_IGN);  // a limit of the file size is then an error of the write, and nothing is left half
 #endif
