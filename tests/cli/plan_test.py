@@ -109,7 +109,7 @@ class Plan(harness.Case):
             self.assertGreater(n["expected_probability"], 1 / len(n["separates"]) + 0.05)
             self.assertEqual(bool(n["program"]), k == 0)
         # What shows most at its typical size comes into it, not what a machine has to be broken for.
-        self.assertTrue({"probe.step", "head.reindexing", "part.form"} <= {e for n in asked for e in n["separates"]})
+        self.assertTrue({"probe.step", "head.reindexing", "thermal.ram_growth"} <= {e for n in asked for e in n["separates"]})
         self.assertFalse({"thermal.table_bending", "part.load_bending"} & {e for n in asked for e in n["separates"]})
 
 

@@ -29,6 +29,11 @@ std::vector<double> scales_between(double estimated, double largest) {
   return out;
 }
 
+/// Adds recordings, a column each or one for all, so many times.
+void add_recordings(const auto& added, const Vector& times, auto&& to) {
+  for (Eigen::Index r = 0; r < to.cols(); ++r) to.col(r) += times(r) * added.col(added.cols() == 1 ? 0 : r);
+}
+
 /// What one error function may have more than its share: as much again, or twice.
 const std::vector<Size> kLarger = {{1, std::log(0.5)}, {2, std::log(0.5)}};
 
@@ -163,14 +168,16 @@ MarginalLikelihood Ensemble::likelihood(const Matrix& z, const Matrix& rest) con
   return {within.colwise() + beside, log_scale_, shape_};
 }
 
+std::pair<Matrix, Matrix> Ensemble::added_up(const Sum& y) {
+  std::pair<Matrix, Matrix> out{y.of.z, y.of.rest};
+  if (y.added) add_recordings(y.added->z, y.times, out.first), add_recordings(y.added->rest, y.times, out.second);
+  return out;
+}
+
 Ensemble::LogLikelihoods Ensemble::judge(const Sum& y, const std::vector<int>& variants) const {
   const Eigen::Index recordings = y.of.recordings(), scales = precision_.cols();
   const auto asked = functions_ + variants.size();
-  const auto add = [&](const auto& added, auto&& to) {  // a column a recording
-    for (Eigen::Index r = 0; r < recordings; ++r) to.col(r) += y.times(r) * added.col(added.cols() == 1 ? 0 : r);
-  };
-  Matrix z = y.of.z, rest = y.of.rest;
-  if (y.added) add(y.added->z, z), add(y.added->rest, rest);
+  const auto [z, rest] = added_up(y);
   MarginalLikelihood likelihood = this->likelihood(z, rest);
   LogLikelihoods out{likelihood.alone(), Matrix(recordings, static_cast<Eigen::Index>(asked))};
   Matrix sums;
@@ -181,8 +188,8 @@ Ensemble::LogLikelihoods Ensemble::judge(const Sum& y, const std::vector<int>& v
       sums = y.of.u.middleCols(b.first, b.count);
       const Eigen::Index each = y.added->recordings();
       for (Eigen::Index j = 0; j < scales; ++j)
-        add(y.added->u.block(j * each, b.first, each, b.count).transpose(),
-            sums.middleRows(j * recordings, recordings).transpose());
+        add_recordings(y.added->u.block(j * each, b.first, each, b.count).transpose(), y.times,
+                       sums.middleRows(j * recordings, recordings).transpose());
     }
     u.clear();
     for (Eigen::Index i = 0; i < b.count; ++i)
@@ -212,6 +219,16 @@ Level Ensemble::level(const ByScale& at) const {
   }
   l.g2 = l.s2 * std::exp(2 * log_g);
   return l;
+}
+
+Vector Ensemble::log_scales(const Sum& y) const {
+  const auto [z, rest] = added_up(y);
+  Vector out(z.cols());
+  for (Eigen::Index r = 0; r < out.size(); ++r) {
+    const Level l = level(likelihood(z.col(r), rest.col(r)).alone_by_scale());
+    out(r) = 0.5 * std::log(l.g2 / l.s2);
+  }
+  return out;
 }
 
 Vector Ensemble::simulated(const Level& level, const NoiseLaw& law, std::uint64_t seed, int replicate) const {

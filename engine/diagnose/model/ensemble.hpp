@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <utility>
 
 #include "engine/diagnose/model/ensemble_basis.hpp"
 #include "engine/diagnose/model/explanation.hpp"
@@ -71,6 +72,9 @@ class Ensemble {
     Matrix with;   ///< a row a recording; a column for each error function, then for each variant that was asked for
   };
   LogLikelihoods judge(const Sum&, const std::vector<int>& variants) const;
+  /// By recording: the logarithm of the scale that its machine's errors seem to have, beside its noise, without any
+  /// variant.
+  Vector log_scales(const Sum&) const;
   /// Of the first recording, by scale: without any variant, with an error function, with a variant.
   ByScale alone(const Seen&) const;
   ByScale with_function(const Seen& y, std::size_t function) const { return with(y, variants_[function]); }
@@ -96,6 +100,8 @@ class Ensemble {
   void project(std::span<const Matrix* const> signatures);
   PreparedVariant prepared(Eigen::Index first, Eigen::Index count, const Variant*) const;
   const PreparedVariant& of(int variant) const { return variants_[functions_ + static_cast<std::size_t>(variant)]; }
+  /// What recordings with others added to them are by eigenvector, and off the model.
+  static std::pair<Matrix, Matrix> added_up(const Sum&);
   /// Of these recordings, without any variant.
   MarginalLikelihood likelihood(const Matrix& z, const Matrix& rest) const;
   ByScale with(const Seen&, const PreparedVariant&) const;

@@ -156,6 +156,12 @@ Vector EvidenceSearch::log_beliefs(const std::vector<Ensemble::Seen>& of, const 
   return out;
 }
 
+Vector EvidenceSearch::log_scales(const std::vector<Ensemble::Seen>& of, const std::vector<Ensemble::Seen>& added,
+                                  const Vector& times) const {
+  const std::size_t e = alone_.ensemble;
+  return ensembles_[e].log_scales({of[e], &added[e], times});
+}
+
 std::vector<Evidence> EvidenceSearch::judge(const std::vector<Ensemble::Seen>& y) const {
   std::vector<int> variants(log_weight_.size());
   std::iota(variants.begin(), variants.end(), 0);

@@ -88,11 +88,17 @@ class EvidenceSearch {
   /// What one explanation has of each recording with some of another added to it, as many or one for all, as logarithms.
   Vector log_beliefs(const std::vector<Ensemble::Seen>& of, const std::vector<Ensemble::Seen>& added,
                      const Vector& times, int explanation) const;
+  /// By recording, of such sums: the logarithm of the scale that the machine's errors seem to have, without any explanation.
+  Vector log_scales(const std::vector<Ensemble::Seen>& of, const std::vector<Ensemble::Seen>& added,
+                    const Vector& times) const;
   /// A recording of a machine in order, at the level of the recording beside its likeliest explanation; at that without
-  /// any where all explanations together are no likelier than none: the best of hundreds would take chance away.
-  Vector in_order(std::uint64_t seed, int replicate) const {
-    const Baseline& level = evidence_.statistic > 0 ? with_ : alone_;
-    return ensembles_[level.ensemble].simulated(level.level, {}, seed, replicate);
+  /// any where all explanations together are no likelier than none: the best of hundreds would take chance away. Of a machine
+  /// whose errors are so many times larger.
+  Vector in_order(double larger, std::uint64_t seed, int replicate) const {
+    const Baseline& likely = evidence_.statistic > 0 ? with_ : alone_;
+    Level level = likely.level;
+    level.g2 *= larger * larger;
+    return ensembles_[likely.ensemble].simulated(level, {}, seed, replicate);
   }
 
   /// Standardised residuals beside a variant of any size: each row against its prediction from all others.

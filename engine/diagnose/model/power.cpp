@@ -12,13 +12,13 @@ namespace abbe::diagnose {
 
 namespace {
 
-constexpr int kForAlarm = 100, kTogether = EvidenceSearch::kTogether, kWithShift = 12;
-static_assert(kForAlarm % kTogether == 0);
+/// Recordings to which a shift is added, of all: they tell its size as well as these the alarm, which is far out in a tail.
+constexpr int kOneIn = 15;
 
-/// The value that a share of a law exceeds whose upper fifth is exponential.
+/// The value that a share of a law exceeds whose upper tenth is exponential.
 double exceeded_by(double share, std::vector<double> values) {
   std::sort(values.begin(), values.end());
-  const std::size_t tail = values.size() / 5;
+  const std::size_t tail = values.size() / 10;
   const double from = values[values.size() - tail - 1];
   double mean = 0;
   for (std::size_t k = values.size() - tail; k < values.size(); ++k) mean += (values[k] - from) / double(tail);
@@ -27,44 +27,56 @@ double exceeded_by(double share, std::vector<double> values) {
 
 }  // namespace
 
-Power::Power(const EvidenceSearch& of, const EvidenceSearch& machines, std::uint64_t seed, int threads)
-    : search_(of), seed_(seed) {
-  const auto in_order = [&](int first, int count) {
-    Matrix recordings(of.rows(), count);
-    for (int k = 0; k < count; ++k) recordings.col(k) = machines.in_order(seed, first + k);
-    return of.seen(recordings);
-  };
-  std::vector<double> statistics(kForAlarm);
-  on_threads(kForAlarm / kTogether, threads, [&](int group) {
-    const std::vector<Evidence> judged = of.judge(in_order(group * kTogether, kTogether));
+Power::Power(const EvidenceSearch& of, LargerErrors larger, const EvidenceSearch& machines, int recordings,
+             std::uint64_t seed, int threads)
+    : recordings_(recordings),
+      seed_(seed),
+      alarm_(alarm_of(of, 1, machines, threads)),
+      alarm_of_larger_(alarm_of(larger.search, larger.times, machines, threads)),
+      larger_(larger) {
+  Matrix in_order(of.rows(), recordings / kOneIn);
+  for (int k = 0; k < in_order.cols(); ++k) in_order.col(k) = machines.in_order(1, seed, k);
+  in_order_ = larger.search.seen(in_order);
+  log_scales_ = larger.search.log_scales(in_order_, in_order_, Vector::Zero(in_order.cols()));
+}
+
+double Power::alarm_of(const EvidenceSearch& search, double times, const EvidenceSearch& machines, int threads) const {
+  constexpr int kTogether = EvidenceSearch::kTogether;
+  std::vector<double> statistics(static_cast<std::size_t>(recordings_));
+  on_threads(recordings_ / kTogether, threads, [&](int group) {
+    Matrix recordings(search.rows(), kTogether);
+    for (int k = 0; k < kTogether; ++k) recordings.col(k) = machines.in_order(times, seed_, group * kTogether + k);
+    const std::vector<Evidence> judged = search.judge(search.seen(recordings));
     for (int k = 0; k < kTogether; ++k) statistics[group * kTogether + k] = judged[k].statistic;
   });
-  in_order_ = in_order(0, kWithShift);
-  alarm_ = exceeded_by(kAlarm, std::move(statistics));
+  return exceeded_by(kAlarm, std::move(statistics));
 }
 
 double Power::detected_from(const Matrix& shift, int explanation, double share, double most) const {
   constexpr double kLeast = 0.5;
   constexpr int kHalvings = 7;
+  const Eigen::Index count = log_scales_.size();
   Matrix shifts = shift;
   if (shift.cols() > 1) {
-    shifts.resize(shift.rows(), kWithShift);
-    for (int k = 0; k < kWithShift; ++k)
+    shifts.resize(shift.rows(), count);
+    for (int k = 0; k < count; ++k)
       shifts.col(k) = shift * standard_normal(shift.cols(), seed_, stream_of("diagnose.power"), k);
   }
-  const std::vector<Ensemble::Seen> there = search_.seen(shifts);
-  const double from = alarm_ + std::log(share);
-  const auto log_beliefs = [&](const Vector& times) {
-    return search_.log_beliefs(in_order_, there, times, explanation);
+  const EvidenceSearch& search = larger_.search;  // whatever size the errors then seem to have, it reckons with
+  const std::vector<Ensemble::Seen> there = search.seen(shifts);
+  const auto above_alarm = [&](const Vector& times) -> Vector {
+    const Vector larger = (search.log_scales(in_order_, there, times) - log_scales_) / std::log(larger_.times);
+    const Vector alarm = (alarm_ + (alarm_of_larger_ - alarm_) * larger.array()).cwiseMax(alarm_);
+    return search.log_beliefs(in_order_, there, times, explanation).array() - alarm.array() - std::log(share);
   };
-  Vector low = Vector::Constant(kWithShift, kLeast), high = Vector::Constant(kWithShift, most);
-  if ((log_beliefs(high).array() <= from).any()) return std::numeric_limits<double>::infinity();
+  Vector low = Vector::Constant(count, kLeast), high = Vector::Constant(count, most);
+  if ((above_alarm(high).array() <= 0).any()) return std::numeric_limits<double>::infinity();
   for (int i = 0; i < kHalvings; ++i) {
-    const Vector middle = (low.array() * high.array()).sqrt(), belief = log_beliefs(middle);
-    for (int k = 0; k < kWithShift; ++k) (belief(k) > from ? high : low)(k) = middle(k);
+    const Vector middle = (low.array() * high.array()).sqrt(), above = above_alarm(middle);
+    for (Eigen::Index k = 0; k < count; ++k) (above(k) > 0 ? high : low)(k) = middle(k);
   }
   const double mean = high.mean();
-  return mean + kPowerDeviations * std::sqrt((high.array() - mean).square().sum() / (kWithShift - 1));
+  return mean + kPowerDeviations * std::sqrt((high.array() - mean).square().sum() / double(count - 1));
 }
 
 }  // namespace abbe::diagnose

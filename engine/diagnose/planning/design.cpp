@@ -91,9 +91,9 @@ class Design {
                  .parameter = std::string(parameter.name),
                  .unit = std::string(parameter.unit),
                  .only_new = only_new};
-    Form told = median_form(forms, [](const Form& f) { return f.um_per_snr * f.named; });
+    Form told = median_form(forms, [](const Form& f) { return f.per_snr * f.named; });
     const bool is_named = std::isfinite(told.named);
-    if (!is_named) told = median_form(forms, [](const Form& f) { return f.um_per_snr; });
+    if (!is_named) told = median_form(forms, [](const Form& f) { return f.per_snr; });
     const double seen_from = detected_from(told, k, shift_of_form(told));
     if (std::isinf(seen_from)) return std::nullopt;
     // No effect is larger than the catalogue takes it for possible: what shows from there on does not show.
@@ -275,15 +275,23 @@ class Design {
 }  // namespace
 
 std::vector<Detectable> smallest_detectable(const Case& c, const EvidenceSearch& search) {
+  constexpr int kRecordings = 300;
+  constexpr double kLeastLarger = 1.1, kMostLarger = 2;
   // A plan has no values that would say how rough the machine may be: those of a machine in order. How large its errors
   // and its noise are is stated, and not what these few values happen to be.
-  std::optional<EvidenceSearch> of_plan;
-  if (c.model.y.squaredNorm() == 0) {
+  const auto reckons_with = [&](double larger) {
     LinearModel model = c.model;
-    model.y = search.in_order(c.options.seed, 0);
-    of_plan.emplace(model, c.hyper, c.explanations);
-  }
-  const Power power(of_plan ? *of_plan : search, search, c.options.seed, c.options.threads);
+    model.y = search.in_order(larger, c.options.seed, 0);
+    Hyperparameters hyper = c.hyper;
+    hyper.scale *= larger;
+    return EvidenceSearch(model, hyper, c.explanations);
+  };
+  std::optional<EvidenceSearch> of_plan;
+  if (c.model.y.squaredNorm() == 0) of_plan.emplace(reckons_with(1));
+  const double larger = std::clamp(c.model.largest_scale / c.hyper.scale, kLeastLarger, kMostLarger);
+  const EvidenceSearch of_larger = reckons_with(larger);
+  const Power power(of_plan ? *of_plan : search, {of_larger, larger}, search, kRecordings, c.options.seed,
+                    c.options.threads);
   const Design design(c, search, power);
   std::vector<std::optional<Detectable>> of(c.explanations.list.size());
   on_threads(static_cast<int>(of.size()), c.options.threads, [&](int k) {
