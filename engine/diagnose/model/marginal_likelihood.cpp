@@ -6,8 +6,16 @@
 #include "engine/diagnose/model/log_sums.hpp"
 #include "engine/lanes/elementary.hpp"
 #include "engine/lanes/for_lanes.hpp"
+#include "engine/lanes/vectors.hpp"
 
 namespace abbe::diagnose {
+
+namespace {
+
+/// Axes whose sums are kept in registers.
+constexpr int kAxes = 4;
+
+}  // namespace
 
 struct MarginalLikelihood::AtScale {
   int recordings, columns, sizes;
@@ -16,7 +24,7 @@ struct MarginalLikelihood::AtScale {
   const double* squares;                    ///< by recording
   const double* const* u;                   ///< of each column at the first scale
   std::ptrdiff_t after;                     ///< it, as many numbers
-  double *along, *left, *logs;              ///< by recording; by size and recording
+  double *along, *left, *logs;              ///< by axis of some and recording; by size and recording
 
   AtScale next() const {
     AtScale s = *this;
@@ -25,27 +33,48 @@ struct MarginalLikelihood::AtScale {
     return s;
   }
 
+  /// From one recording on, as many as a vector holds: u along some of the axes.
+  template <int width, int together>
+  [[gnu::always_inline]] inline void project(int axis, int first) const {
+    using Numbers = typename VectorOf<width>::type;
+    Numbers sums[together] = {};
+    for (int column = 0; column < columns; ++column) {
+      const Numbers of_column = reinterpret_cast<const Numbers&>(u[column][after + first]);
+      for (int k = 0; k < together; ++k) sums[k] += axes[column * columns + axis + k] * of_column;
+    }
+    for (int k = 0; k < together; ++k) reinterpret_cast<Numbers&>(along[k * recordings + first]) = sums[k];
+  }
+  /// The same for all recordings.
+  template <int width, int together>
+  [[gnu::always_inline]] inline void project(int axis) const {
+    int first = 0;
+    for (; first + width <= recordings; first += width) project<width, together>(axis, first);
+    if (first < recordings && recordings >= width) project<width, together>(axis, recordings - width);  // some again
+    for (; first < recordings && recordings < width; ++first) project<1, together>(axis, first);
+  }
+
   /// What the variant leaves of the sums of squares at each size, and what the log likelihoods then are.
+  template <int width>
   [[gnu::always_inline]] inline void judge_sizes() const {
     for (int size = 0; size < sizes; ++size) {
       double* const l = left + size * recordings;
       ABBE_NO_ALIAS
       for (int r = 0; r < recordings; ++r) l[r] = squares[r];
     }
-    for (int axis = 0; axis < columns; ++axis) {
-      ABBE_NO_ALIAS
-      for (int r = 0; r < recordings; ++r) along[r] = 0;
-      for (int column = 0; column < columns; ++column) {
-        const double e = axes[column * columns + axis];
-        const double* const of_column = u[column] + after;
-        ABBE_NO_ALIAS
-        for (int r = 0; r < recordings; ++r) along[r] += e * of_column[r];
-      }
+    for (int axis = 0, together = 0; axis < columns; axis += together) {
+      together = columns - axis < kAxes ? 1 : kAxes;
+      if (together == 1)
+        project<width, 1>(axis);
+      else
+        project<width, kAxes>(axis);
       for (int size = 0; size < sizes; ++size) {
-        const double s = share[axis * sizes + size];
         double* const l = left + size * recordings;
-        ABBE_NO_ALIAS
-        for (int r = 0; r < recordings; ++r) l[r] -= s * (along[r] * along[r]);
+        for (int k = 0; k < together; ++k) {
+          const double s = share[(axis + k) * sizes + size];
+          const double* const a = along + k * recordings;
+          ABBE_NO_ALIAS
+          for (int r = 0; r < recordings; ++r) l[r] -= s * (a[r] * a[r]);
+        }
       }
     }
     for (int size = 0; size < sizes; ++size) {
@@ -59,13 +88,13 @@ struct MarginalLikelihood::AtScale {
 
 MarginalLikelihood::MarginalLikelihood(Matrix squares, Vector log_scale, double shape)
     : squares_(std::move(squares)), log_scale_(std::move(log_scale)), shape_(shape) {
-  along_.resize(static_cast<std::size_t>(squares_.rows()));
-  top_.resize(along_.size());
+  top_.resize(static_cast<std::size_t>(squares_.rows()));
+  along_.resize(kAxes * top_.size());
   by_scale_.resize(static_cast<std::size_t>(squares_.size()));
 }
 
 MarginalLikelihood::AtScale MarginalLikelihood::at_first_scale(const PreparedVariant& b, const WithData& u) {
-  left_.resize(b.sizes.size() * along_.size());
+  left_.resize(b.sizes.size() * top_.size());
   logs_.resize(left_.size());
   return {.recordings = recordings(),
           .columns = static_cast<int>(b.count),
@@ -96,19 +125,20 @@ Vector MarginalLikelihood::alone() {
 }
 
 void MarginalLikelihood::with(const PreparedVariant& b, const WithData& u, double* out) {
-  on_lanes([first = at_first_scale(b, u), scales = scales(), log_scale = log_scale_.data(), by_scale = by_scale_.data(),
-            top = top_.data(), out] {
-    const int n = first.recordings;
-    AtScale s = first;
-    for (int j = 0; j < scales; ++j, s = s.next()) {
-      s.judge_sizes();
-      double* const log = by_scale + j * n;
-      log_sums_exp(s.sizes, n, s.logs, top, log);
-      ABBE_NO_ALIAS
-      for (int r = 0; r < n; ++r) log[r] += log_scale[j];
-    }
-    log_sums_exp(scales, n, by_scale, top, out);
-  });
+  on_vectors(vector_width(),
+             [first = at_first_scale(b, u), scales = scales(), log_scale = log_scale_.data(),
+              by_scale = by_scale_.data(), top = top_.data(), out](auto width) {
+               const int n = first.recordings;
+               AtScale s = first;
+               for (int j = 0; j < scales; ++j, s = s.next()) {
+                 s.judge_sizes<width>();
+                 double* const log = by_scale + j * n;
+                 log_sums_exp(s.sizes, n, s.logs, top, log);
+                 ABBE_NO_ALIAS
+                 for (int r = 0; r < n; ++r) log[r] += log_scale[j];
+               }
+               log_sums_exp(scales, n, by_scale, top, out);
+             });
 }
 
 ByScale MarginalLikelihood::alone_by_scale() {
@@ -122,7 +152,7 @@ ByScale MarginalLikelihood::with_by_scale(const PreparedVariant& b, const WithDa
   ByScale out{Vector(scales()), Vector(scales()), Vector(scales())};
   AtScale s = at_first_scale(b, u);
   for (int j = 0; j < scales(); ++j, s = s.next()) {
-    s.judge_sizes();
+    s.judge_sizes<1>();
     int best = 0;
     for (int size = 1; size < s.sizes; ++size)
       if (s.logs[size * s.recordings] > s.logs[best * s.recordings]) best = size;
