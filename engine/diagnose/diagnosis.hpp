@@ -139,6 +139,8 @@ struct Detectable {
   std::vector<std::string> confounded_with = {};
   /// what is there in all runs does not show: these are the sizes of what is new in one of them
   bool only_new = false;
+  /// which form of the effect that is: the values of its parameters that are no sizes, of those that were tried
+  std::vector<DiagnosedParameter> form = {};
   bool scatter = false;  ///< of the noise: detect_um and name_um are standard deviations, of outliers their size
 };
 

@@ -141,6 +141,12 @@ std::string in_words(const Detectable& d) {
   return d.effect + (d.only_new ? ", if new in a run" : "");
 }
 
+std::string form_in_words(const Detectable& d) {
+  std::vector<std::string> values;
+  for (const DiagnosedParameter& p : d.form) values.push_back(with_uncertainty(p));
+  return fmt::format("{}", fmt::join(values, ", "));
+}
+
 std::string why_not_judged(const CannotJudge& c, bool touches) {
   if (c.missing.empty())
     return touches ? "does nothing to these touches, or is hidden by what is unknown of the part or by their scatter"

@@ -32,6 +32,8 @@ std::vector<std::string> in_words(const DiagnosedEffect&);
 
 /// The name of what could be detected: "probe.tip_radius, if new in a run"
 std::string in_words(const Detectable&);
+/// In which form it could be: "axis z, tau 26 s"
+std::string form_in_words(const Detectable&);
 /// Why an effect cannot be judged: "missing: load_kg"; `touches`: from those, not from values.
 std::string why_not_judged(const CannotJudge&, bool touches);
 /// The p of a value: "0.034"; "<0.001" where no virtual machine is as far out.

@@ -13,6 +13,7 @@
 #include "engine/diagnose/explanations/catalogue.hpp"
 #include "engine/diagnose/explanations/parameter_grid.hpp"
 #include "engine/diagnose/explanations/refine.hpp"
+#include "engine/diagnose/explanations/value_called.hpp"
 #include "engine/diagnose/findings/variant_estimate.hpp"
 #include "engine/diagnose/model/log_sums.hpp"
 #include "engine/diagnose/model/restricted_likelihood.hpp"
@@ -233,7 +234,7 @@ class Estimator {
     } else if (!standard ||
                (grids_[p].tried.size() > 1 && value != 0)) {  // 0 names no stylus, no tip, no place in particular
       out.push_back(told(parameter, {value, 0}));
-      out.back().called = called(parameter, static_cast<int>(value));
+      out.back().called = called(parameter, static_cast<int>(value), touches_);
       add_others(p, value, out.back());
     }
   }
@@ -270,7 +271,7 @@ class Estimator {
   std::string in_words(const EffectParameter& parameter, double value) const {
     if (!parameter.choices.empty())
       return std::string(parameter.choices[static_cast<std::size_t>(value - parameter.low + 0.5)]);
-    if (const std::string name = called(parameter, static_cast<int>(value)); !name.empty()) return name;
+    if (const std::string name = called(parameter, static_cast<int>(value), touches_); !name.empty()) return name;
     if (parameter.unit != "code") return fmt::format("{:g} {}", value, parameter.unit);
     return value == 0 ? "all" : fmt::format("{:g}", value);
   }
@@ -301,19 +302,6 @@ class Estimator {
     }
     if (!several || before == 0 || after == 0) return "";
     return before == after ? fmt::format("in run {}", before) : fmt::format("between runs {} and {}", before, after);
-  }
-
-  /// The stylus of that number, or the tip in its orientation; "" of any other number.
-  std::string called(const EffectParameter& parameter, int number) const {
-    const bool tip = parameter.sought == Sought::tip;
-    if (!tip && parameter.sought != Sought::stylus) return "";
-    for (const RecordedTouch& touch : touches_.touches) {
-      const StylusScene& s = touch.scene.stylus;
-      if (tip && s.tip_ordinal == number)
-        return fmt::format("{} at A {:.1f} B {:.1f}", s.name, in_degrees(s.head_a_rad), in_degrees(s.head_b_rad));
-      if (!tip && s.ordinal == number) return touches_.styli[number - 1];
-    }
-    return "";
   }
 
   /// The linear parameter whose phase this is: that of the same harmonic.

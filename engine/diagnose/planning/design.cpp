@@ -16,6 +16,8 @@
 #include <optional>
 
 #include "engine/base/on_threads.hpp"
+#include "engine/diagnose/explanations/parameter_grid.hpp"
+#include "engine/diagnose/explanations/value_called.hpp"
 #include "engine/diagnose/levels.hpp"
 #include "engine/diagnose/model/log_sums.hpp"
 #include "engine/diagnose/model/power.hpp"
@@ -29,6 +31,15 @@ constexpr double kNothing_um = 1e4;
 constexpr double kNever = std::numeric_limits<double>::infinity();
 /// Signal-to-noise: what is larger is not told by evidence but seen by eye.
 constexpr double kSeenByEye = 100;
+
+/// Whether a parameter counts beside the other values.
+bool counts(const Effect& effect, const EffectParameter& parameter, const std::vector<double>& theta) {
+  const auto& [name, word, not_at] = parameter.only_with;
+  for (std::size_t p = 0; p < effect.parameters.size(); ++p)
+    if (const EffectParameter& choice = effect.parameters[p]; choice.name == name)
+      return (choice.choices[static_cast<std::size_t>(theta[p] - choice.low + 0.5)] == word) != not_at;
+  return true;
+}
 
 /// One form of an effect: a column of a variant.
 struct Form {
@@ -50,7 +61,7 @@ struct VariantView {
 class Design {
  public:
   Design(const Case& c, const EvidenceSearch& search, const Power& power)
-      : all_(c.explanations), search_(search), power_(power) {
+      : all_(c.explanations), touches_(c.touches), search_(search), power_(power) {
     for (int b = 0; b < static_cast<int>(all_.variants.size()); ++b) {
       const Matrix g = search.between(b, b);
       const Spectrum of_g = spectrum(g);
@@ -103,6 +114,7 @@ class Design {
     if (const double from = std::max(told.named, seen_from); is_named && possible(from))
       d.name = from * told.per_snr, d.name_um = from * told.um_per_snr;
     d.confounded_with = likeliest(belief, k);
+    d.form = form_of(*e.effect, all_.variants[told.variant]);
     return d;
   }
 
@@ -125,6 +137,27 @@ class Design {
     return power_.detected_from(variant.signature.col(f.column) / std::sqrt(information(f.column)),
                                 static_cast<int>(explanation), std::exp(belief[explanation] - log_sum_exp(belief)),
                                 kSeenByEye);
+  }
+
+  /// The values that a variant has of lists and grids.
+  std::vector<DiagnosedParameter> form_of(const Effect& effect, const Variant& variant) const {
+    std::vector<DiagnosedParameter> out;
+    for (std::size_t p = 0; p < effect.parameters.size(); ++p) {
+      const EffectParameter& parameter = effect.parameters[p];
+      const ParameterGrid grid = grid_of(parameter, touches_);
+      if (parameter.linear || grid.kind != ParameterGrid::Kind::tried || grid.tried.size() < 2 ||
+          !counts(effect, parameter, variant.theta))
+        continue;
+      const double value = variant.theta[p];
+      DiagnosedParameter told{.name = std::string(parameter.name), .unit = std::string(parameter.unit), .value = value};
+      told.low = told.high = value;
+      if (!parameter.choices.empty())
+        told.word = parameter.choices[static_cast<std::size_t>(value - parameter.low + 0.5)];
+      else if (parameter.sought == Sought::stylus || parameter.sought == Sought::tip)
+        told.word = value == 0 ? "all" : called(parameter, static_cast<int>(value), touches_);
+      out.push_back(std::move(told));
+    }
+    return out;
   }
 
   /// The size that is told: of the column that shows most.
@@ -266,6 +299,7 @@ class Design {
   }
 
   const Explanations& all_;
+  const RecordedTouches& touches_;
   const EvidenceSearch& search_;
   const Power& power_;
   std::vector<VariantView> variants_;

@@ -152,10 +152,10 @@ std::string baseline(const Diagnosis& d) {
 
 std::string detectable_effects(const Diagnosis& d) {
   if (d.smallest_detectable.empty()) return "";
-  std::string rows = html_row({"effect", "detected from, um", "named from, um", "looks like"}, "th");
+  std::string rows = html_row({"effect", "detected from, um", "named from, um", "as", "looks like"}, "th");
   for (const Detectable& s : d.smallest_detectable)
-    rows +=
-        html_row({in_words(s), two_digits(s.detect_um), s.name_um ? two_digits(*s.name_um) : "never", looks_like(s)});
+    rows += html_row({in_words(s), two_digits(s.detect_um), s.name_um ? two_digits(*s.name_um) : "never",
+                      form_in_words(s), looks_like(s)});
   return std::string("<h2>") + (d.judged != Judged::plan ? "What could have been seen" : "What can be seen") +
       "</h2>\n" + html_table(rows);
 }

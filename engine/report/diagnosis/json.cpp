@@ -89,15 +89,17 @@ Json improvement(const std::optional<Improvement>& i) {
           {"chi2_per_dof", change(i->chi2_per_dof_before, i->chi2_per_dof_after)}};
 }
 
+/// By parameter: a number, or a word.
+Json form(const std::vector<DiagnosedParameter>& parameters) {
+  Json out = Json::object();
+  for (const DiagnosedParameter& p : parameters) out[p.name] = p.word.empty() ? number(p.value) : Json(p.word);
+  return out;
+}
+
 Json detectable(const Detectable& d) {
-  return {{"effect", d.effect},
-          {"parameter", d.parameter},
-          {"unit", d.unit},
-          {"detect", number(d.detect)},
-          {"name", number(d.name)},
-          {"detect_um", number(d.detect_um)},
-          {"name_um", number(d.name_um)},
-          {"confounded_with", d.confounded_with},
+  return {{"effect", d.effect},           {"parameter", d.parameter}, {"unit", d.unit},
+          {"detect", number(d.detect)},   {"name", number(d.name)},   {"detect_um", number(d.detect_um)},
+          {"name_um", number(d.name_um)}, {"form", form(d.form)},     {"confounded_with", d.confounded_with},
           {"only_new", d.only_new}};
 }
 

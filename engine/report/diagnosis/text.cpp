@@ -206,13 +206,15 @@ std::string mismatch_table(const Diagnosis& d) {
 }
 
 std::string design_table(const Diagnosis& d) {
-  std::string out = fmt::format("{:<38} {:>11} {:>11}  {}\n", "largest displacement, um, that would be", "detected",
-                                "named", "looks like");
+  std::size_t width = 0;
+  for (const Detectable& s : d.smallest_detectable) width = std::max(width, form_in_words(s).size());
+  std::string out = fmt::format("{:<38} {:>11} {:>11}  {:<{}}  {}\n", "largest displacement, um, that would be",
+                                "detected", "named", "as", width, "looks like");
   bool scatter = false;
   for (const Detectable& s : d.smallest_detectable) {
     if (s.scatter && !std::exchange(scatter, true)) out += "scatter, standard deviation, um\n";
-    out += fmt::format("{:<38} {:>11} {:>11}  {}\n", in_words(s), two_digits(s.detect_um),
-                       s.name_um ? two_digits(*s.name_um) : "never", looks_like(s));
+    out += fmt::format("{:<38} {:>11} {:>11}  {:<{}}  {}\n", in_words(s), two_digits(s.detect_um),
+                       s.name_um ? two_digits(*s.name_um) : "never", form_in_words(s), width, looks_like(s));
   }
   return out;
 }

@@ -1,0 +1,19 @@
+#include "engine/diagnose/explanations/value_called.hpp"
+
+#include <fmt/format.h>
+
+namespace abbe::diagnose {
+
+std::string called(const EffectParameter& parameter, int number, const RecordedTouches& touches) {
+  const bool tip = parameter.sought == Sought::tip;
+  if (!tip && parameter.sought != Sought::stylus) return "";
+  for (const RecordedTouch& touch : touches.touches) {
+    const StylusScene& s = touch.scene.stylus;
+    if (tip && s.tip_ordinal == number)
+      return fmt::format("{} at A {:.1f} B {:.1f}", s.name, in_degrees(s.head_a_rad), in_degrees(s.head_b_rad));
+    if (!tip && s.ordinal == number) return touches.styli[number - 1];
+  }
+  return "";
+}
+
+}  // namespace abbe::diagnose
