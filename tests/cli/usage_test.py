@@ -89,7 +89,7 @@ class Usage(harness.Case):
         self.abbe("record", harness.ROOT / "examples/programs/sphere_25_points.dmi", "-o", "rec.csv")
         said = json.loads(self.abbe("diagnose", "rec.csv", "--format", "json").stdout)
         listed = self.abbe("explain").stdout.split("\nDiagnosis\n")[1].split("\n\n")[0].split()
-        for word in {*said, "prob.", "detected", "looks like", "gain", "log_score_gain", "geometry_scale", *listed} - {"schema", "looks", "like"}:
+        for word in {*said, "prob.", "detected", "form", "looks like", "gain", "log_score_gain", "geometry_scale", *listed} - {"schema", "looks", "like"}:
             self.assertIn(": a word of diagnoses", self.abbe("explain", word).stdout, word)
         self.assertIn("a word of reports", self.abbe("explain", "verdict").stdout)
         self.assertIn("cannot be told apart", self.abbe("explain", "members").stdout)

@@ -44,6 +44,7 @@ std::span<const ReportWord> diagnosis_words() {
       ReportWord{"", "runner_up", "the likeliest name outside the set that was found"},
       ReportWord{"detected", "smallest_detectable",
                  "from what size on such a recording shows an effect in 80 of 100 cases, for half of its forms"},
+      ReportWord{"as", "form", "of which form of the effect a size is: its axis, its time constant, its stylus"},
       ReportWord{"looks like", "confounded_with", "what an effect of twice the detected size would be taken for"},
       ReportWord{"", "next_measurement", "what to change in a second recording, by what it tells for each minute"},
       ReportWord{"", "otherwise", "what else to do next: what to log, or what tells the explanations apart"},
