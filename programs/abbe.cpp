@@ -14,8 +14,8 @@
 
 namespace {
 
-/// Matrices of some megabytes come and go all the time. Given back to the system each time and asked for anew, their pages
-/// cost a third of a diagnosis of 125 touches (docs/benchmarks.md).
+/// Matrices of some megabytes come and go all the time. Given back to the system each time, their pages would be asked for and
+/// cleared anew, which takes longer than some of the work on them.
 void keep_freed_memory() {
 #ifdef __GLIBC__
   constexpr int kMegabyte = 1 << 20;

@@ -16,4 +16,11 @@ std::string called(const EffectParameter& parameter, int number, const RecordedT
   return "";
 }
 
+std::string word_of(const EffectParameter& parameter, double value, const RecordedTouches& touches) {
+  if (!parameter.choices.empty())
+    return std::string(parameter.choices[static_cast<std::size_t>(value - parameter.low + 0.5)]);
+  if (value == 0 && parameter.is_code()) return "all";
+  return called(parameter, static_cast<int>(value), touches);
+}
+
 }  // namespace abbe::diagnose

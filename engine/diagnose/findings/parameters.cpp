@@ -269,11 +269,8 @@ class Estimator {
 
   /// A value of a list: "y", "50 mm", the name of a stylus, "all" of them.
   std::string in_words(const EffectParameter& parameter, double value) const {
-    if (!parameter.choices.empty())
-      return std::string(parameter.choices[static_cast<std::size_t>(value - parameter.low + 0.5)]);
-    if (const std::string name = called(parameter, static_cast<int>(value), touches_); !name.empty()) return name;
-    if (parameter.unit != "code") return fmt::format("{:g} {}", value, parameter.unit);
-    return value == 0 ? "all" : fmt::format("{:g}", value);
+    if (std::string word = word_of(parameter, value, touches_); !word.empty()) return word;
+    return parameter.is_code() ? fmt::format("{:g}", value) : fmt::format("{:g} {}", value, parameter.unit);
   }
 
   /// Whether another value would do anything else to these touches: where a step lies along an axis, it has no moment.

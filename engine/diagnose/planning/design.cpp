@@ -37,7 +37,7 @@ bool counts(const Effect& effect, const EffectParameter& parameter, const std::v
   const auto& [name, word, not_at] = parameter.only_with;
   for (std::size_t p = 0; p < effect.parameters.size(); ++p)
     if (const EffectParameter& choice = effect.parameters[p]; choice.name == name)
-      return (choice.choices[static_cast<std::size_t>(theta[p] - choice.low + 0.5)] == word) != not_at;
+      return (word_of(choice, theta[p], {}) == word) != not_at;
   return true;
 }
 
@@ -149,13 +149,12 @@ class Design {
           !counts(effect, parameter, variant.theta))
         continue;
       const double value = variant.theta[p];
-      DiagnosedParameter told{.name = std::string(parameter.name), .unit = std::string(parameter.unit), .value = value};
-      told.low = told.high = value;
-      if (!parameter.choices.empty())
-        told.word = parameter.choices[static_cast<std::size_t>(value - parameter.low + 0.5)];
-      else if (parameter.sought == Sought::stylus || parameter.sought == Sought::tip)
-        told.word = value == 0 ? "all" : called(parameter, static_cast<int>(value), touches_);
-      out.push_back(std::move(told));
+      out.push_back({.name = std::string(parameter.name),
+                     .unit = std::string(parameter.unit),
+                     .value = value,
+                     .low = value,
+                     .high = value,
+                     .word = word_of(parameter, value, touches_)});
     }
     return out;
   }

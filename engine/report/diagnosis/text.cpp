@@ -206,7 +206,7 @@ std::string mismatch_table(const Diagnosis& d) {
 }
 
 std::string design_table(const Diagnosis& d) {
-  std::size_t width = 0;
+  std::size_t width = 2;  // of its heading
   for (const Detectable& s : d.smallest_detectable) width = std::max(width, form_in_words(s).size());
   std::string out = fmt::format("{:<38} {:>11} {:>11}  {:<{}}  {}\n", "largest displacement, um, that would be",
                                 "detected", "named", "as", width, "looks like");

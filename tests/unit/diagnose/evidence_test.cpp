@@ -355,7 +355,6 @@ TEST_CASE(
   };
   const double said = Power(stated, {larger, kLarger}, machines, 300, 1, 2).detected_from(shift, 0, 1, 100),
                of_stated_ones = Power(stated, {stated, kLarger}, machines, 300, 1, 2).detected_from(shift, 0, 1, 100);
-  MESSAGE(said, " ", of_stated_ones, " ", seen_share(said), " ", seen_share(of_stated_ones));
   CHECK(seen_share(said) == doctest::Approx(0.8).epsilon(0.15));
   CHECK(seen_share(of_stated_ones) < 0.6);
 }
