@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include "engine/diagnose/model/products.hpp"
+
 namespace abbe::diagnose {
 
 std::string_view name(Factor f) {
@@ -93,11 +95,14 @@ bool same_columns(const Matrix& a, const Matrix& b, double less_than_um) {
 
 Matrix compressed(const Matrix& m) {
   if (m.cols() == 0) return m;
-  const auto [values, vectors] = spectrum(m.transpose() * m);
+  const bool wide = m.cols() > m.rows();
+  const auto [values, vectors] = spectrum(wide ? product(m, m.transpose()) : transposed_product(m, m));
   const double least = 1e-6 * values(values.size() - 1);
   Eigen::Index first = 0;
   while (first < values.size() - 1 && values(first) < least) ++first;
-  return m * vectors.rightCols(values.size() - first);
+  const Eigen::Index kept = values.size() - first;
+  if (wide) return vectors.rightCols(kept) * values.tail(kept).cwiseMax(0).cwiseSqrt().asDiagonal();
+  return m * vectors.rightCols(kept);
 }
 
 Explanations only(const Explanations& all, const std::vector<int>& kept) {

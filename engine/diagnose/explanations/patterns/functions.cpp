@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/diagnose/model/rotated.hpp"
+
 namespace abbe::diagnose::patterns {
 
 namespace {
@@ -13,20 +15,41 @@ double squared_distance(const std::vector<double>& a, const std::vector<double>&
   return sum;
 }
 
-/// Functions of the points with a covariance of their squared distance.
+constexpr double kRidge = 1e-6;  // of the variance of a function: centres that are almost one stay two
+
+/// A covariance of the squared distance, from each point to each.
+template <class Covariance>
+Matrix kernel(const Points& a, const Points& b, Covariance covariance) {
+  Matrix k(a.size(), b.size());
+  for (std::size_t j = 0; j < b.size(); ++j)
+    for (std::size_t i = 0; i < a.size(); ++i) k(i, j) = covariance(squared_distance(a[i], b[j]));
+  return k;
+}
+
+/// Functions of the points with such a covariance, one about each centre.
 template <class Covariance>
 Matrix functions(const Points& points, const Points& at, Covariance covariance) {
-  const auto kernel = [&](const Points& a, const Points& b) {
-    Matrix k(a.size(), b.size());
-    for (std::size_t i = 0; i < a.size(); ++i)
-      for (std::size_t j = 0; j < b.size(); ++j) k(i, j) = covariance(squared_distance(a[i], b[j]));
-    return k;
-  };
-  return kernel(points, at) * inverse_root(kernel(at, at) + 1e-6 * Matrix::Identity(at.size(), at.size()));
+  return kernel(points, at, covariance) *
+      inverse_root(kernel(at, at, covariance) + kRidge * Matrix::Identity(at.size(), at.size()));
+}
+
+/// The largest principal components of those functions, which are drawn together.
+template <class Covariance>
+Matrix principal_functions(const Points& points, const Points& at, Covariance covariance, int most) {
+  const Matrix columns =
+      Cholesky(kernel(at, at, covariance), kRidge).whitened(kernel(at, points, covariance)).transpose();
+  if (columns.cols() <= most) return columns;
+  const auto [axes, variance] = principal_axes(columns);
+  const Eigen::Index kept = std::min<Eigen::Index>(most, variance.size());
+  return axes.rightCols(kept) * variance.tail(kept).cwiseSqrt().asDiagonal();
 }
 
 auto exponential(double length) {
   return [length](double d2) { return std::exp(-std::sqrt(d2) / length); };
+}
+
+auto gaussian(double length) {
+  return [length](double d2) { return std::exp(-d2 / (2 * length * length)); };
 }
 
 /// The factors side by side, each divided by its length.
@@ -38,28 +61,22 @@ Points joined(const std::vector<Within>& factors) {
   return out;
 }
 
-/// The largest principal components of columns that are drawn together.
-Matrix principal(const Matrix& columns, int most) {
-  if (columns.cols() <= most) return columns;
-  return columns * spectrum(columns.transpose() * columns).vectors.rightCols(most);
-}
-
 constexpr int kCentres = 3;  // for each principal function
 
 }  // namespace
 
 Matrix smooth_over(const std::vector<Within>& factors, int most) {
-  return principal(smooth(joined(factors), 1, kCentres * most), most);
+  const Points points = joined(factors);
+  return principal_functions(points, centres(points, 1, kCentres * most), gaussian(1), most);
 }
 
 Matrix rugged_over(const std::vector<Within>& factors, int most) {
   const Points points = joined(factors);
-  return principal(functions(points, centres(points, 0.5, kCentres * most), exponential(1)), most);
+  return principal_functions(points, centres(points, 0.5, kCentres * most), exponential(1), most);
 }
 
 Matrix smooth(const Points& points, double length, int most) {
-  return functions(points, centres(points, length, most),
-                   [&](double d2) { return std::exp(-d2 / (2 * length * length)); });
+  return functions(points, centres(points, length, most), gaussian(length));
 }
 
 Matrix rugged(const Points& points, double length, int most) {
