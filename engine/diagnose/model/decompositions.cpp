@@ -21,6 +21,11 @@ Spectrum spectrum(const Matrix& symmetric) {
   return {solver.eigenvalues(), solver.eigenvectors()};
 }
 
+Tridiagonal tridiagonal(const Matrix& symmetric) {
+  const Eigen::Tridiagonalization<Matrix> of(symmetric);
+  return {of.diagonal(), of.subDiagonal(), of.matrixQ()};
+}
+
 Spectrum spectrum_beside(const Matrix& symmetric, const Matrix& positive) {
   const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> solver(symmetric, positive);
   return {solver.eigenvalues(), solver.eigenvectors()};

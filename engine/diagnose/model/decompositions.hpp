@@ -18,6 +18,16 @@ struct Spectrum {
 /// Reads the lower triangle.
 Spectrum spectrum(const Matrix& symmetric);
 
+/// S = Q T Q', Q' Q = 1, of a symmetric matrix S, where T has three diagonals.
+struct Tridiagonal {
+  Vector diagonal;
+  Vector beside;  ///< one less
+  Matrix axes;    ///< Q, a column each
+};
+
+/// Reads the lower triangle. A third of the work of a spectrum.
+Tridiagonal tridiagonal(const Matrix& symmetric);
+
 /// S v = value P v, V' P V = 1, of a symmetric matrix S beside a positive definite one, P.
 Spectrum spectrum_beside(const Matrix& symmetric, const Matrix& positive);
 

@@ -116,33 +116,21 @@ void Ensemble::prepare(const std::vector<const Matrix*>& signatures, std::span<c
 }
 
 PreparedVariant Ensemble::prepared(Eigen::Index first, Eigen::Index count, const Variant* variant) const {
-  PreparedVariant b;
-  b.first = first;
-  b.count = count;
-  const auto a = coordinates_.middleCols(first, count);
-  const auto h = projected_->middleCols(first, count);
-  const Matrix outside = h.transpose() * h - a.transpose() * a;
-  const double information = (a.transpose() * precision(1.0).asDiagonal() * a).trace() + outside.trace();
+  const Eigen::Index scales = precision_.cols();
+  const Matrix a = coordinates_.middleCols(first, count), h = projected_->middleCols(first, count);
+  const Matrix outside = transposed_product(h, h) - transposed_product(a, a);
+  const double information = (precision(1.0).transpose() * a.cwiseAbs2()).sum() + outside.trace();
   const bool own_sizes = variant && variant->sizes.empty(),
              tells_nothing = own_sizes && information * kWidest * kWidest < 1;
-  b.sizes = !variant ? kLarger : own_sizes ? sizes_of(information) : variant->sizes;
-  const auto sizes = static_cast<Eigen::Index>(b.sizes.size());
-  b.axes.resize(count, count * precision_.cols());
-  b.share.resize(sizes, count * precision_.cols());
-  b.log_weight.resize(sizes, precision_.cols());
-  for (Eigen::Index j = 0; j < precision_.cols(); ++j) {
-    Matrix g = a.transpose() * precision_.col(j).asDiagonal() * a + outside;
-    if (tells_nothing) g.setZero();
-    const Spectrum of_g = spectrum(g);
-    const Vector d = of_g.values.cwiseMax(0);
-    b.axes.middleCols(j * count, count) = of_g.vectors.transpose();
-    for (Eigen::Index s = 0; s < sizes; ++s) {
-      const auto& [factor, log_prior] = b.sizes[s];
-      const double size = variant ? factor : factor * scales_[j], s2 = size * size;
-      b.share.block(s, j * count, 1, count) = ((tells_nothing ? 0 : s2) / (1 + s2 * d.array())).transpose();
-      b.log_weight(s, j) = log_prior - 0.5 * (1 + s2 * d.array()).log().sum();
-    }
-  }
+  Matrix weighted(a.rows(), count * scales);
+  for (Eigen::Index j = 0; j < scales; ++j) weighted.middleCols(j * count, count) = precision_.col(j).asDiagonal() * a;
+  const Matrix within = transposed_product(a, weighted);
+  PreparedVariant b(first, count, !variant ? kLarger : own_sizes ? sizes_of(information) : variant->sizes, scales);
+  for (Eigen::Index j = 0; j < scales; ++j)
+    b.set(j, within.middleCols(j * count, count) + outside,
+          tells_nothing ? 0
+              : variant ? 1
+                        : scales_[static_cast<std::size_t>(j)]);
   return b;
 }
 

@@ -1,5 +1,7 @@
 #include "engine/diagnose/model/marginal_likelihood.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 
@@ -17,18 +19,47 @@ constexpr int kAxes = 4;
 
 }  // namespace
 
+PreparedVariant::PreparedVariant(Eigen::Index first_column, Eigen::Index columns, std::vector<Size> at_sizes,
+                                 Eigen::Index scales)
+    : first(first_column), count(columns), sizes(std::move(at_sizes)) {
+  const auto all = static_cast<Eigen::Index>(sizes.size());
+  axes.resize(count, count * scales);
+  carried.resize(all, count * scales);
+  share.resize(all, count * scales);
+  log_weight.resize(all, scales);
+}
+
+void PreparedVariant::set(Eigen::Index scale, const Matrix& g, double times) {
+  const Tridiagonal t = tridiagonal(g);
+  axes.middleCols(scale * count, count) = t.axes.transpose();
+  for (Eigen::Index s = 0; s < log_weight.rows(); ++s) {
+    const auto& [factor, log_prior] = sizes[static_cast<std::size_t>(s)];
+    const double s2 = factor * times * factor * times;
+    double log_determinant = 0, pivot = 1;
+    for (Eigen::Index i = 0, at = scale * count; i < count; ++i, ++at) {
+      const double beside = i > 0 ? s2 * t.beside(i - 1) : 0;
+      carried(s, at) = beside / pivot;
+      pivot = std::max(1.0, 1 + s2 * t.diagonal(i) - beside * carried(s, at));  // less than 1 is rounding
+      share(s, at) = s2 / pivot;
+      log_determinant += std::log(pivot);
+    }
+    log_weight(s, scale) = log_prior - 0.5 * log_determinant;
+  }
+}
+
 struct MarginalLikelihood::AtScale {
   int recordings, columns, sizes;
   double shape;
-  const double *axes, *share, *log_weight;  ///< of the variant
-  const double* squares;                    ///< by recording
-  const double* const* u;                   ///< of each column at the first scale
-  std::ptrdiff_t after;                     ///< it, as many numbers
-  double *along, *left, *logs;              ///< by axis of some and recording; by size and recording
+  const double *axes, *carried, *share, *log_weight;  ///< of the variant
+  const double* squares;                              ///< by recording
+  const double* const* u;                             ///< of each column at the first scale
+  std::ptrdiff_t after;                               ///< it, as many numbers
+  double* along;                                      ///< by axis of some and recording: Q' u
+  double *before, *left, *logs;  ///< by size and recording; `before`: what L^-1 Q' u is along the axis before
 
   AtScale next() const {
     AtScale s = *this;
-    s.axes += columns * columns, s.share += columns * sizes, s.log_weight += sizes;
+    s.axes += columns * columns, s.carried += columns * sizes, s.share += columns * sizes, s.log_weight += sizes;
     s.squares += recordings, s.after += recordings;
     return s;
   }
@@ -57,9 +88,9 @@ struct MarginalLikelihood::AtScale {
   template <int width>
   [[gnu::always_inline]] inline void judge_sizes() const {
     for (int size = 0; size < sizes; ++size) {
-      double* const l = left + size * recordings;
+      double *const l = left + size * recordings, *const b = before + size * recordings;
       ABBE_NO_ALIAS
-      for (int r = 0; r < recordings; ++r) l[r] = squares[r];
+      for (int r = 0; r < recordings; ++r) l[r] = squares[r], b[r] = 0;
     }
     for (int axis = 0, together = 0; axis < columns; axis += together) {
       together = columns - axis < kAxes ? 1 : kAxes;
@@ -68,12 +99,15 @@ struct MarginalLikelihood::AtScale {
       else
         project<width, kAxes>(axis);
       for (int size = 0; size < sizes; ++size) {
-        double* const l = left + size * recordings;
+        double *const l = left + size * recordings, *const b = before + size * recordings;
         for (int k = 0; k < together; ++k) {
-          const double s = share[(axis + k) * sizes + size];
+          const double c = carried[(axis + k) * sizes + size], s = share[(axis + k) * sizes + size];
           const double* const a = along + k * recordings;
           ABBE_NO_ALIAS
-          for (int r = 0; r < recordings; ++r) l[r] -= s * (a[r] * a[r]);
+          for (int r = 0; r < recordings; ++r) {
+            b[r] = a[r] - c * b[r];
+            l[r] -= s * (b[r] * b[r]);
+          }
         }
       }
     }
@@ -95,18 +129,21 @@ MarginalLikelihood::MarginalLikelihood(Matrix squares, Vector log_scale, double 
 
 MarginalLikelihood::AtScale MarginalLikelihood::at_first_scale(const PreparedVariant& b, const WithData& u) {
   left_.resize(b.sizes.size() * top_.size());
+  before_.resize(left_.size());
   logs_.resize(left_.size());
   return {.recordings = recordings(),
           .columns = static_cast<int>(b.count),
           .sizes = static_cast<int>(b.sizes.size()),
           .shape = shape_,
           .axes = b.axes.data(),
+          .carried = b.carried.data(),
           .share = b.share.data(),
           .log_weight = b.log_weight.data(),
           .squares = squares_.data(),
           .u = u.data(),
           .after = 0,
           .along = along_.data(),
+          .before = before_.data(),
           .left = left_.data(),
           .logs = logs_.data()};
 }

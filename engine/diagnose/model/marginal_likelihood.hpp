@@ -8,14 +8,20 @@
 
 namespace abbe::diagnose {
 
-/// What a variant asks of a family of baselines at each scale g, where H' P_g H = E diag(d) E'. All scales lie in one piece
-/// of memory, since a search reads it for every variant.
+/// What a variant asks of a family of baselines at each scale g, where G = H' P_g H = Q T Q', T of three diagonals: enough
+/// for 1 + s^2 G = Q L D L' Q' at every size s, L with one diagonal beside its ones. All scales lie in one piece of memory,
+/// since a search reads it for every variant.
 struct PreparedVariant {
   Eigen::Index first = 0, count = 0;  ///< columns
   std::vector<Size> sizes;            ///< of an error function at the scale 1: they are in proportion to it
-  Matrix axes;                        ///< E', of the scales side by side
-  Matrix share;       ///< s^2 / (1 + s^2 d), by size and axis: of a square of E' u, what the variant takes; likewise
-  Matrix log_weight;  ///< by size and scale: prior and determinant
+  Matrix axes;                        ///< Q', of the scales side by side
+  Matrix carried;                     ///< by size and axis, likewise: what L has beside its ones, 0 for the first axis
+  Matrix share;                       ///< s^2 / D: of a square of L^-1 Q' u, what the variant takes
+  Matrix log_weight;                  ///< by size and scale: prior and determinant
+
+  PreparedVariant(Eigen::Index first_column, Eigen::Index columns, std::vector<Size>, Eigen::Index scales);
+  /// G at a scale; what the sizes are multiplied by there.
+  void set(Eigen::Index scale, const Matrix& g, double times);
 };
 
 /// u = H' P_g y of the columns of a variant: where each has its first recording at the first scale. The recordings of a scale
@@ -53,7 +59,7 @@ class MarginalLikelihood {
   Matrix squares_;
   Vector log_scale_;
   double shape_;
-  std::vector<double> along_, left_, logs_, top_, by_scale_;
+  std::vector<double> along_, before_, left_, logs_, top_, by_scale_;
 };
 
 }  // namespace abbe::diagnose

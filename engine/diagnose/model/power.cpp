@@ -13,7 +13,7 @@ namespace abbe::diagnose {
 namespace {
 
 /// Recordings to which a shift is added, of all: they tell its size as well as these the alarm, which is far out in a tail.
-constexpr int kOneIn = 15;
+constexpr int kOneIn = 8;
 
 /// The value that a share of a law exceeds whose upper tenth is exponential.
 double exceeded_by(double share, std::vector<double> values) {

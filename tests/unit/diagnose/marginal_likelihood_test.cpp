@@ -11,45 +11,43 @@ namespace abbe::diagnose {
 
 namespace {
 
-constexpr int kScales = 3, kColumns = 2;
+constexpr int kScales = 3, kColumns = 6;  // more than are summed together
 constexpr double kShape = 7.5;
 constexpr double kFactors[] = {0.5, 2, 4};
 
-/// Of a variant with G = E diag(d) E' at each scale.
+/// Of a variant with some G at each scale.
 struct Judged {
   std::vector<Matrix> g;
-  PreparedVariant variant;
+  PreparedVariant variant{0, kColumns, sizes(), kScales};
   Matrix squares;
   Vector log_scale;
   std::vector<Matrix> u;  ///< by column of the variant: a row a recording, a column a scale
 
+  static std::vector<Size> sizes() {
+    std::vector<Size> out;
+    for (const double factor : kFactors) out.push_back({factor, std::log(1.0 / std::size(kFactors))});
+    return out;
+  }
+
   explicit Judged(int recordings) : squares(recordings, kScales), log_scale(random_matrix(kScales, 1, 3'000)) {
-    const auto sizes = static_cast<Eigen::Index>(std::size(kFactors));
-    variant.count = kColumns;
-    variant.axes.resize(kColumns, kColumns * kScales);
-    variant.share.resize(sizes, kColumns * kScales);
-    variant.log_weight.resize(sizes, kScales);
-    for (const double factor : kFactors) variant.sizes.push_back({factor, std::log(1.0 / std::size(kFactors))});
     for (int j = 0; j < kScales; ++j) {
-      const Matrix h = random_matrix(5, kColumns, 100 * j);
+      const Matrix h = random_matrix(9, kColumns, 100 * j);
       g.push_back(h.transpose() * h);
-      const auto [d, axes] = spectrum(g.back());
-      variant.axes.middleCols(j * kColumns, kColumns) = axes.transpose();
-      for (Eigen::Index s = 0; s < sizes; ++s) {
-        const auto& [factor, log_prior] = variant.sizes[static_cast<std::size_t>(s)];
-        const double s2 = factor * factor;
-        variant.share.block(s, j * kColumns, 1, kColumns) = (s2 / (1 + s2 * d.array())).transpose();
-        variant.log_weight(s, j) = log_prior - 0.5 * (1 + s2 * d.array()).log().sum();
-      }
+      variant.set(j, g.back(), 1);
     }
     for (int i = 0; i < kColumns; ++i) u.push_back(random_matrix(recordings, kScales, 5'000 * (i + 1)));
     squares = 30 + random_matrix(recordings, kScales, 7'000).array().square();
   }
 
+  WithData data() const {
+    WithData out;
+    for (const Matrix& column : u) out.push_back(column.data());
+    return out;
+  }
   MarginalLikelihood likelihood() const { return {squares, log_scale, kShape}; }
   Vector with() const {
     Vector out(squares.rows());
-    likelihood().with(variant, {u[0].data(), u[1].data()}, out.data());
+    likelihood().with(variant, data(), out.data());
     return out;
   }
   /// By definition: the sum over scales and sizes of prior, determinants, and what is left to a power.
@@ -84,8 +82,7 @@ TEST_CASE("marginal likelihoods are those of their definition") {
 
 TEST_CASE("what is judged by scale adds up to what is judged over all") {
   const Judged of(1);
-  const ByScale with = of.likelihood().with_by_scale(of.variant, {of.u[0].data(), of.u[1].data()}),
-                alone = of.likelihood().alone_by_scale();
+  const ByScale with = of.likelihood().with_by_scale(of.variant, of.data()), alone = of.likelihood().alone_by_scale();
   CHECK(std::log(with.log_likelihood.array().exp().sum()) == doctest::Approx(of.with()(0)).epsilon(1e-14));
   CHECK(std::log(alone.log_likelihood.array().exp().sum()) ==
         doctest::Approx(of.likelihood().alone()(0)).epsilon(1e-14));
