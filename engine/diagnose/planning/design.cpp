@@ -308,7 +308,7 @@ class Design {
 }  // namespace
 
 std::vector<Detectable> smallest_detectable(const Case& c, const EvidenceSearch& search) {
-  constexpr int kRecordings = 300;
+  constexpr int kRecordings = 160;
   constexpr double kLeastLarger = 1.1, kMostLarger = 2;
   // A plan has no values that would say how rough the machine may be: those of a machine in order. How large its errors
   // and its noise are is stated, and not what these few values happen to be.
