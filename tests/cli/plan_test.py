@@ -68,6 +68,7 @@ class Plan(harness.Case):
         self.assertIn("thermal.ram_growth", [m for e in said["effects"] for m in e["members"]])
         self.assertEqual(self.diagnosis(self.record("--seed", 81, "--with", f"{size},tau_s=5000"))["verdict"], "no_mismatch")
         self.assertEqual(self.row("machine.squareness")["form"], {"which": "awz"})
+        self.assertEqual(self.row("noise.vibration")["form"], {"direction": "x"})   # every way half of it shows
         self.assertEqual(self.row("machine.step")["form"].keys(), {"t0_s", "along"})   # at_mm is of a step along an axis
         self.assertRegex(self.abbe("diagnose", self.folder / "rec.csv", "--machine", MACHINE, "--design-only").stdout, r"(?m)^thermal.ram_growth .* tau [0-9.]+ s ")
 

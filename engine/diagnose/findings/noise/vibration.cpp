@@ -79,18 +79,28 @@ std::optional<NoiseFinding> judge_vibration(Scatter& scatter) {
 }
 
 void plan_vibration(const ScatterDesign& design, Diagnosis& out) {
+  constexpr int kEveryWay = 3;  // among the directions of the effect
   std::vector<ScatterForm> forms{design.everywhere()};
+  std::vector<int> directions{kEveryWay};
   for (int axis = 0; axis < 3; ++axis)
-    if (const std::optional<Vector> share = share_along(design.planned(), axis))
+    if (const std::optional<Vector> share = share_along(design.planned(), axis)) {
       forms.push_back(design.along(*share, [](double excess) { return std::sqrt(1 + excess) >= kLeastAlong; }));
-  double seen = median_excess(forms, &ScatterForm::detected);
-  const double named = median_excess(forms, &ScatterForm::named);
-  if (seen == kAtNoSize)  // along one axis few touches show nothing; in every direction they may
-    for (const ScatterForm& form : forms) seen = std::min(seen, form.detected);
-  if (seen == kAtNoSize) return;
+      directions.push_back(axis);
+    }
+  const bool named = median_excess(forms, &ScatterForm::named) < kAtNoSize;
+  double ScatterForm::*const by = named ? &ScatterForm::named : &ScatterForm::detected;
+  double size = median_excess(forms, by);
+  if (size == kAtNoSize)  // along one axis few touches show nothing; in every direction they may
+    for (const ScatterForm& form : forms) size = std::min(size, form.detected);
+  if (size == kAtNoSize) return;
+  const auto told = std::find_if(forms.begin(), forms.end(), [&](const ScatterForm& f) { return f.*by == size; });
   Detectable d = smallest_of(kVibration, "sd_um", "um");
-  d.detect = d.detect_um = design.noise_um() * std::sqrt(seen);
-  if (named < kAtNoSize) d.name = d.name_um = design.noise_um() * std::sqrt(named);
+  d.detect = d.detect_um = design.noise_um() * std::sqrt(told->detected);
+  if (named) d.name = d.name_um = design.noise_um() * std::sqrt(std::max(told->named, told->detected));
+  const auto& direction = *std::find_if(kVibration.parameters.begin(), kVibration.parameters.end(),
+                                        [](const EffectParameter& p) { return p.name == "direction"; });
+  const int code = directions[static_cast<std::size_t>(told - forms.begin())];
+  d.form.push_back({.name = std::string(direction.name), .word = std::string(direction.choices[code])});
   out.smallest_detectable.push_back(std::move(d));
 }
 
