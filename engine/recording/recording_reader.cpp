@@ -167,7 +167,9 @@ std::vector<FileColumn> columns_of(const CsvTable& table, const SourceFile& file
           !present.contains(name))
         sink.add(diagnostic_at(
             file, table.header.front().span, Code::E0527, fmt::format("the column '{}' is missing", name),
-            "a recording needs feature, touch, x, y, z; docs/recording.md, \"Recordings\", lists the others"));
+            is_position(column) && present.contains("tx")
+                ? "a recording needs the measured x, y, z; what a plan of targets could tell, --design-only says"
+                : "a recording needs feature, touch, x, y, z; docs/recording.md, \"Recordings\", lists the others"));
   return columns;
 }
 

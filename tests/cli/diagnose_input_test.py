@@ -396,9 +396,15 @@ class Mistakes(Input):
         none = self.changed(self.recording, lambda row: self.without(row, *TARGET), "none.csv")
         self.assertIn("of 'BORE2' has no target", self.refused("E0543", "diagnose", some))
         self.assertIn("touch 1 of 'PLA' has no target", self.refused("E0543", "diagnose", none))
+        pointless = self.changed(self.recording, lambda row: self.without(row, "nx", "ny", "nz"), "pointless.csv")
+        self.assertRegex(self.refused("E0543", "diagnose", pointless), "touch 1 of 'PLA' has no normal\n.*give the columns nx, ny, nz, or")
         unlike = lambda row: self.without(row | {"run": "2", "z": repr(float(row["z"]) + 1e-4)}, *TARGET)
         of_two = self.refused("E0543", "diagnose", self.recording, self.changed(self.recording, unlike, "second.csv"))
         self.assertRegex(of_two, r"E0543\]?: \S*second\.csv:\d+: touch")
+
+    def test_who_gives_a_plan_hears_how_a_plan_is_asked(self):
+        plan = self.changed(self.recording, lambda row: self.without(row, "x", "y", "z"), "plan.csv")
+        self.assertIn("--design-only says", self.refused("E0527", "diagnose", plan))
 
     def test_targets_in_the_place_of_some_positions_are_left_out(self):
         in_order = self.folder / "in_order.csv"

@@ -210,7 +210,10 @@ void require_targets(const Recording& recording, const std::string& file) {
     throw UserError(diagnostic(Code::E0543,
                                fmt::format("{}:{}: touch {} of '{}' has no {}", file_of(recording, row, file), row.line,
                                            row.touch, row.feature, row.target_mm ? "normal" : "target"),
-                               "give the columns tx, ty, tz, nx, ny, nz, or the measurement program with --program"));
+                               fmt::format("give the columns {}, or the measurement program with --program",
+                                           row.target_mm    ? "nx, ny, nz"
+                                               : row.normal ? "tx, ty, tz"
+                                                            : "tx, ty, tz, nx, ny, nz")));
   }
 }
 
