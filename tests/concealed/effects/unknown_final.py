@@ -1,7 +1,6 @@
 """Unknown effects of the final round only: none of them resembles those of the development."""
 
 from portable import np
-from scene import BALL
 
 from .base import Change, Effect, unit
 
@@ -12,261 +11,233 @@ def unknown(name, draw, change, factors, designs="CD"):
     UNKNOWN[name] = Effect(name, draw, change, ("amplitude_um",), 20.0, tuple(factors), designs=designs)
 
 
-def centres(scene):
-    """Middle of the ball that is touched, in the part."""
-    return scene.part_point - BALL * scene.part_normal
+def some_of(rng, names, low, high):
+    """Between these shares of the names, in their order."""
+    count = int(rng.integers(max(1, round(low * len(names))), max(2, round(high * len(names)) + 1)))
+    return [names[k] for k in sorted(rng.permutation(len(names))[:count])]
 
 
-def half_size(scene):
-    return float(np.abs(scene.part_point[:, :2]).max())
+def draw_signs(scene, rng):
+    waves = rng.normal(size=(3, 2)) * np.array([1.0, 0.6])
+    i = int(rng.integers(3))
+    return {
+        "amplitude_um": 1.0,
+        "axis": "xyz"[i],
+        "length_mm": float(rng.uniform(0.7, 1.3) * np.ptp(scene.reading[:, i])),
+        "waves": (waves / np.sqrt(np.sum(waves**2, 1, keepdims=True) / 2)).tolist(),
+        "phases": rng.uniform(0, 2 * np.pi, (3, 2)).tolist(),
+    }
 
 
-def visits_of(scene):
-    """(visit, stylus, time of its first touch) of every indexing, in order."""
-    first = np.flatnonzero(np.diff(scene.visit, prepend=-1))
-    return [(int(scene.visit[k]), int(scene.sensor[k]), float(scene.time[k])) for k in first]
+def change_signs(scene, p):
+    """The correction table of one axis was copied to the new controller as numbers without a sign: each minus has
+    been lost on the way. Where an error of the guide is positive the correction is as good as ever; where it is
+    negative the controller now adds to it instead of taking it off, and the error is there twice. Between the two
+    lies a kink, at another place for the position and for either straightness. Amplitude is the root of the mean
+    square of the table in each of its three columns."""
+    q = scene.reading[:, "xyz".index(p["axis"])]
+    waves, phases = np.asarray(p["waves"]), np.asarray(p["phases"])
+    table = np.zeros((scene.size, 3))
+    for m in range(2):
+        angle = 2 * np.pi * (m + 1) * q / p["length_mm"]
+        table += waves[:, m] * np.cos(angle[:, None] + phases[:, m])
+    return Change(tip=p["amplitude_um"] * 2 * np.minimum(table, 0))
 
 
-def draw_rattling(scene, rng):
+def draw_handshake(scene, rng):
+    own = rng.normal(size=(len(scene.styli), 3))
+    return {
+        "amplitude_um": 1.0,
+        "own": (own / np.sqrt(np.mean(own**2))).tolist(),
+        "late": int(rng.integers(1, 4)),
+    }
+
+
+def change_handshake(scene, p):
+    """The software tells the controller which stylus is up now, and does not wait for an answer. The nominal vector
+    of the new tip comes at once, out of the angles of the head; but the few micrometres by which the qualification
+    has found this tip elsewhere come from a file, and for the first touches after each indexing those of the stylus
+    before are still in force. Then all is right, until the next indexing; which touches are wrong, and whither, hangs
+    on the pair of styli. Amplitude is the root of the mean square of a coordinate in the file."""
+    own, shifted, before, count = np.asarray(p["own"]), np.zeros((scene.size, 3)), None, 0
+    for k in range(scene.size):
+        if k and scene.visit[k] != scene.visit[k - 1]:
+            before, count = min(int(scene.sensor[k - 1]), len(own) - 1), 0
+        if before is not None and count < p["late"]:
+            shifted[k] = own[before] - own[min(int(scene.sensor[k]), len(own) - 1)]
+        count += 1
+    return Change(tip=p["amplitude_um"] * shifted)
+
+
+def draw_joystick(scene, rng):
+    stands = rng.uniform(0, 2 * np.pi)
+    blocks = [int(b) for b in np.unique(scene.block)]
+    return {
+        "amplitude_um": 1.0,
+        "blocks": some_of(rng, blocks, 0.25, 0.5),
+        "stands": [float(np.cos(stands)), float(np.sin(stands))],
+        "first_mm_per_s": float(rng.uniform(2, 4)),
+        "last_mm_per_s": float(rng.uniform(12, 20)),
+        "careful": float(rng.uniform(0.5, 0.8)),
+    }
+
+
+def change_joystick(scene, p):
+    """Now and then the operator does not trust the program, and takes a ball by hand with the joystick. He begins
+    gently and loses patience from touch to touch; on the side of the ball that is turned away from him, where he
+    cannot see the tip, he feels his way, and from above he is neither quick nor slow. The software takes off the
+    delay of the probe at the speed of the program, which his hand does not know: the quick touches are too deep, the
+    slow ones too shallow, and the log has the speed of the program for all. Amplitude for 8 mm/s too fast."""
+    ours, wrong = set(p["blocks"]), np.zeros(scene.size)
+    first = np.searchsorted(scene.block, scene.block)
+    count = np.bincount(scene.block)[scene.block]
+    impatient = (np.arange(scene.size) - first) / np.maximum(count - 1, 1)
+    hand = p["first_mm_per_s"] + (p["last_mm_per_s"] - p["first_mm_per_s"]) * impatient
+    hand *= 1 - p["careful"] * 0.5 * (1 - scene.normal[:, :2] @ np.asarray(p["stands"]))
+    by_hand = np.array([int(b) in ours for b in scene.block])
+    wrong[by_hand] = (hand - scene.speed)[by_hand] / 8
+    return Change(along=-p["amplitude_um"] * wrong)
+
+
+def draw_lacquer(scene, rng):
     names = [str(f) for f in np.unique(scene.feature)]
-    loose = rng.permutation(len(names))[: int(rng.integers(len(names) // 3, 2 * len(names) // 3 + 1))]
+    soft = some_of(rng, names, 0.4, 1.0)
     return {
         "amplitude_um": 1.0,
-        "play": {names[k]: float(rng.uniform(0.5, 1)) for k in sorted(loose)},
-        "friction": float(rng.uniform(0.2, 0.4)),
-        "weight": float(rng.uniform(0.6, 1.6)),
+        "soft": {name: float(rng.uniform(0.4, 1)) for name in soft},
+        "wide_deg": float(rng.uniform(14, 24)),
+        "recovers_s": float(rng.uniform(1500, 8000)),
     }
 
 
-def change_rattling(scene, p):
-    """Some balls have never been glued: they lie in sockets that are a little too wide. A touch that comes from
-    the side with more than friction holds pushes the ball over to the far wall of its socket, where it stays
-    lying; one from above presses it down, and meets it where an earlier touch has left it. When the part is
-    placed anew every ball comes to rest in the middle of its socket. Amplitude is the play of the loosest to
-    either side; weight is that of a ball, over the force of a touch."""
-    lies, moved, before = {}, np.zeros(scene.size), 0
-    for k, feature in enumerate(scene.feature):
-        if scene.setup[k] != before:
-            lies, before = {}, scene.setup[k]
-        n = scene.part_normal[k]
-        side = np.sqrt(n[0] ** 2 + n[1] ** 2)
-        if side > p["friction"] * (p["weight"] + max(n[2], 0)):
-            lies[feature] = -n[:2] / side
-        if feature in p["play"] and feature in lies:
-            moved[k] = p["play"][feature] * np.sum(n[:2] * lies[feature])
-    return Change(along=p["amplitude_um"] * moved)
+def change_lacquer(scene, p):
+    """Against rust some of the balls have been dipped in a thick lacquer that stays soft. Each touch leaves a broad
+    dent in it, which fills again only slowly; a later touch near the same place, with whatever stylus, falls into
+    the dents that earlier ones have left there, and finds the ball too small. The first touch of a ball is right, and
+    where nobody has touched before all is right as well, however late. Amplitude is the depth of one fresh dent in
+    the softest lacquer."""
+    feature, deep = np.array(scene.feature), np.zeros(scene.size)
+    for name, softness in p["soft"].items():
+        mine = np.flatnonzero(feature == name)
+        n, when = scene.part_normal[mine], scene.time[mine]
+        angle = np.degrees(np.arccos(np.clip(n @ n.T, -1, 1)))
+        since = when[:, None] - when
+        dents = np.exp(-((angle / p["wide_deg"]) ** 2) - np.maximum(since, 0) / p["recovers_s"]) * (since > 0)
+        deep[mine] = softness * dents.sum(1)
+    return Change(along=-p["amplitude_um"] * deep)
 
 
-def draw_knocked(scene, rng):
-    level = rng.uniform(0, 2 * np.pi)
-    to = np.array([np.cos(level), np.sin(level), rng.uniform(-0.3, 0.3)])
-    lasts = [int(v) for v in rng.integers(4, 7, len(scene.styli))]
-    used = [int(rng.integers(v)) for v in lasts]
-    times = [when for _, _, when in visits_of(scene)]
+def draw_weather(scene, rng):
+    every = float(rng.uniform(300, 700))
     return {
         "amplitude_um": 1.0,
-        "knocked_at_s": float(times[int(rng.uniform(0.25, 0.6) * len(times))] - 5),
-        "to": [float(v) for v in to / np.linalg.norm(to)],
-        "lasts": lasts,
-        "used": used,
+        "every_s": every,
+        "first_s": float(-rng.uniform(0, 1) * every),
+        "periods_s": [float(rng.uniform(1500, 3000)), float(rng.uniform(4000, 9000))],
+        "phases": [float(v) for v in rng.uniform(0, 2 * np.pi, 2)],
+        "dead_mm": [float(v) for v in rng.uniform(0.05, 0.3, 3) * np.abs(scene.reading).max()],
     }
 
 
-def change_knocked(scene, p):
-    """The reference sphere stands at the edge of the table, and somebody knocks against it in passing. Each
-    stylus is qualified anew on it after a few uses, one sooner than the other: those whose turn has come since
-    are all off by the way that the sphere has moved, those that still live on their old qualification are
-    right. For a while both kinds measure the same part by turns; in the end all styli are off alike, and nobody
-    notices any more. Amplitude is the way of the sphere."""
-    used, off, shifted = list(p["used"]), set(), np.zeros(scene.size)
-    for visit, stylus, when in visits_of(scene):
-        k = min(stylus, len(used) - 1)
-        if used[k] >= p["lasts"][k]:
-            used[k] = 0
-            if when > p["knocked_at_s"]:
-                off.add(stylus)
-        used[k] += 1
-        if stylus in off:
-            shifted[scene.visit == visit] = 1.0
-    return Change(tip=p["amplitude_um"] * np.outer(shifted, p["to"]))
+def change_weather(scene, p):
+    """The machine has lasers for scales, and the length of their waves goes with the weather in the hall: all axes
+    grow and shrink together, in proportion to the way of the light from its source, dead path and all. The software
+    knows pressure and damp from a small station, which it asks only every few minutes. Just after that all is right,
+    then what the weather has done since adds up, this way or that, until it asks again and all leaps back. Amplitude
+    of a wave of the weather at the end of the longest path."""
+
+    def weather(t):
+        return sum(a * np.sin(2 * np.pi * t / s + f) for a, s, f in zip((0.7, 1.0), p["periods_s"], p["phases"]))
+
+    asked = p["first_s"] + p["every_s"] * np.floor((scene.time - p["first_s"]) / p["every_s"])
+    path = np.abs(scene.reading) + np.asarray(p["dead_mm"])
+    path *= np.array([scene.machine.direction[a] for a in "xyz"]) / path.max()
+    return Change(tip=p["amplitude_um"] * path * (weather(scene.time) - weather(asked))[:, None])
 
 
-def draw_foot(scene, rng):
-    turn = rng.uniform(0, 2 * np.pi) + np.array([0, 2.1, 4.2]) + rng.uniform(-0.25, 0.25, 3)
-    feet = rng.uniform(0.7, 1.0) * half_size(scene) * np.column_stack([np.cos(turn), np.sin(turn)])
-    warm = scene.temperature["part"]
+def draw_magnetised(scene, rng):
+    names = [str(f) for f in np.unique(scene.feature)]
     return {
         "amplitude_um": 1.0,
-        "feet_mm": [[float(v) for v in foot] for foot in feet],
-        "height_mm": float(centres(scene)[:, 2].min() - rng.uniform(0.2, 0.5) * half_size(scene)),
-        "level_at_C": float(warm.min() + rng.uniform(0, 1) * np.ptp(warm)),
+        "poles": {name: [float(v) for v in unit(rng)] for name in names},
+        "strength": {name: float(rng.uniform(0.2, 1)) for name in names},
+        "stiff": float(rng.uniform(0.03, 0.15)),
     }
 
 
-def change_foot(scene, p):
-    """The part has three feet, and one of them has been lost; in its place there is a stud of nylon, which grows
-    ten times as much as the steel of the others. With every kelvin this corner of the part rises, the whole part
-    turns about the line through the two good feet, and all that stands high on it goes over to the other side.
-    Nothing is bent, and a part that is cold again lies as before. Amplitude at the stud, for 1 K."""
-    stud, one, other = np.asarray(p["feet_mm"])
-    line = np.append(other - one, 0.0) / np.linalg.norm(other - one)
-    away = centres(scene) - np.append(one, p["height_mm"])
-    lever = np.cross(line, np.append(stud - one, 0.0))[2]
-    rises = np.cross(line, away) / lever * (scene.temperature["part"] - p["level_at_C"])[:, None]
-    return Change(along=p["amplitude_um"] * np.sum(rises * scene.part_normal, 1))
+def change_magnetised(scene, p):
+    """The steel balls have been gripped on a magnetic chuck when they were ground, and nobody has demagnetised them.
+    Each draws at the shank of the stylus, steel or the cobalt in hard metal, with the square of its field, that is
+    four times as much over its poles as at its equator, and each has its poles elsewhere. The stylus bends towards
+    the ball before it touches, most when it is long and comes from the side, and the touch is too early; straight
+    along the stylus it cannot give way. Amplitude over the pole of the strongest ball, at the softest stylus."""
+    poles = np.array([p["poles"][f] for f in scene.feature])
+    strength = np.array([p["strength"][f] for f in scene.feature])
+    pull = strength**2 * (1 + 3 * np.sum(poles * scene.part_normal, 1) ** 2) / 4
+    bends = scene.length**3 / (scene.shaft**4 * scene.young)
+    across = 1 - np.sum(scene.normal * scene.shank, 1) ** 2
+    return Change(along=p["amplitude_um"] * pull * (across + p["stiff"]) * bends / bends.max())
 
 
-def draw_pump(scene, rng):
+def draw_chip(scene, rng):
     i = int(rng.integers(2))
-    shots, now = [], float(rng.uniform(-300, 200))
-    every = rng.uniform(300, 800)
-    while now < scene.duration:
-        shots.append(now)
-        now += float(every * rng.uniform(0.95, 1.05))
-    aside = 0.5 * unit(rng)
+    q = scene.reading[:, i]
     return {
         "amplitude_um": 1.0,
         "axis": "xy"[i],
-        "shots_s": shots,
-        "squeezed_mm": float(rng.uniform(1.5, 5) * np.ptp(scene.reading[:, i])),
-        "seeps_s": float(rng.uniform(400, 1200)),
-        "lifts": [float(aside[0]), float(aside[1]), 1.0],
+        "chip_mm": float(q.min() + rng.uniform(0.35, 0.65) * np.ptp(q)),
+        "half_mm": float(rng.uniform(0.3, 0.45) * np.ptp(q)),
+        "pad_mm": float(rng.uniform(0.13, 0.22) * np.ptp(q)),
+        "rolls": float(rng.uniform(-0.6, 0.6)),
     }
 
 
-def change_pump(scene, p):
-    """The guide of one axis is lubricated by a pump, which gives it a shot of oil from time to time, whether it
-    needs it or not. At once the carriage floats higher on the film, and somewhat to one side, for the pads do not
-    get the same; and it comes back as it wipes the oil out to both ends, on every millimetre of its way, and a
-    little by itself when it stands. Amplitude of the rise after one fresh shot."""
-    i = "xyz".index(p["axis"])
-    way = np.cumsum(np.abs(np.diff(scene.reading[:, i], prepend=scene.reading[0, i])))
-    film = np.zeros(scene.size)
-    for shot in p["shots_s"]:
-        later = scene.time >= shot
-        gone = np.maximum(way - np.interp(shot, scene.time, way), 0) / p["squeezed_mm"]
-        film += later * np.exp(-gone - np.maximum(scene.time - shot, 0) / p["seeps_s"])
-    return Change(tip=p["amplitude_um"] * np.outer(film, p["lifts"]))
+def change_chip(scene, p):
+    """A chip has been rolled into one of the rails, and the carriage runs on two pads, one before and one behind.
+    When the front pad climbs on the chip the carriage nods back, half the chip rises at its middle, and it rolls a
+    little to the other rail; in between, with the chip under its belly, all is right; then the rear pad climbs on it,
+    and the carriage nods forward. What is far below or above the rail goes to and fro the more. Amplitude is the
+    height of the chip, as the long pads feel it."""
+    i = "xy".index(p["axis"])
+    away = scene.reading[:, i] - p["chip_mm"]
+    front = np.exp(-(((away + p["half_mm"]) / p["pad_mm"]) ** 2))
+    rear = np.exp(-(((away - p["half_mm"]) / p["pad_mm"]) ** 2))
+    move, turn = np.zeros((scene.size, 3)), np.zeros((scene.size, 3))
+    move[:, 2] = (front + rear) / 2
+    nod = (front - rear) / (2 * p["half_mm"]) * 1e3
+    turn[:, 1 - i] = nod if i == 1 else -nod
+    turn[:, i] = p["rolls"] * (front + rear) / (2 * p["half_mm"]) * 1e3
+    return Change(carriages={p["axis"]: (p["amplitude_um"] * move, p["amplitude_um"] * turn)})
 
 
-def draw_gauge(scene, rng):
+def draw_collet(scene, rng):
+    warm = scene.temperature["z"]
     return {
         "amplitude_um": 1.0,
-        "stiff": float(rng.uniform(0.05, 0.25)),
-        "mapped_at_mm_per_s": float(rng.uniform(3, 6)),
+        "opens_at_C": float(warm.min() + rng.uniform(0.1, 0.6) * np.ptp(warm)),
+        "slit_deg": float(rng.uniform(0, 360)),
+        "oval": float(rng.uniform(0.2, 0.8)),
     }
 
 
-def change_gauge(scene, p):
-    """So that it does not drift, the probe takes its strain gauges back to nought all the time, slowly. When a
-    touch comes slowly, and the long stylus gives way to it from the side so that the strain rises slowly as well,
-    a part of the strain has been taken back before the threshold is reached, and the tip must go farther: with
-    one over the speed, and with the square of how easily the stylus bends. The map of the tip has taken what there
-    was at the speed of its qualification. Amplitude of the softest stylus, from 2 mm/s to very fast."""
-    across = 1 - np.sum(scene.normal * scene.shank, 1) ** 2
-    bends = scene.length**3 / (scene.shaft**4 * scene.young)
-    bends = (across + p["stiff"]) * bends / bends.max()
-    late = 2 / scene.speed - 2 / p["mapped_at_mm_per_s"]
-    return Change(along=-p["amplitude_um"] * bends**2 * late)
+def change_collet(scene, p):
+    """The styli are held in a collet of aluminium, which grows more than their shanks. In the cool it grips; above a
+    certain temperature it opens, and lets the stylus nod in it, more with every kelvin, and more along its slit than
+    across. A touch from the side must first push the tip to the end of this play before the probe feels anything, and
+    is too deep, in proportion to the length of the stylus; one along the stylus is right, and so is all that was
+    measured in the cool, the qualification as well. Amplitude for 1 K too warm, at the longest, along the slit."""
+    play = np.maximum(scene.temperature["z"] - p["opens_at_C"], 0) * scene.length / max(s.length for s in scene.first_styli)
+    n = np.einsum("nji,nj->ni", scene.head, scene.normal)[:, :2]
+    slit = np.radians(p["slit_deg"])
+    along, across = n @ np.array([np.cos(slit), np.sin(slit)]), n @ np.array([-np.sin(slit), np.cos(slit)])
+    return Change(along=-p["amplitude_um"] * play * np.sqrt(along**2 + (p["oval"] * across) ** 2))
 
 
-def draw_map(scene, rng):
-    size = np.ptp(scene.target, axis=0)
-    waves = rng.normal(size=(3, 3, 2)) * np.array([1.0, 0.6])
-    waves /= np.sqrt(np.sum(waves**2) / 2)
-    return {
-        "amplitude_um": 1.0,
-        "lengths_mm": [float(v) for v in rng.uniform(0.7, 1.4, 3) * size.max()],
-        "waves": waves.tolist(),
-        "phases": rng.uniform(0, 2 * np.pi, (3, 3, 2)).tolist(),
-    }
-
-
-def change_map(scene, p):
-    """The correction of the guides is not done by the controller any more but by the software, after it has
-    turned the points into the coordinates of the part: it looks up the table with these, as if the part lay at
-    the home of the machine and straight. Each ball gets the same correction in whatever placement, along the
-    axes of the machine, instead of that of the place where it is. Amplitude is the root of the mean square of
-    the table."""
-    waves, phases = np.asarray(p["waves"]), np.asarray(p["phases"])
-
-    def table(place):
-        out = np.zeros((scene.size, 3))
-        for k in range(3):
-            for m in range(2):
-                angle = 2 * np.pi * (m + 1) * place[:, k] / p["lengths_mm"][k]
-                out += waves[k, :, m] * np.cos(angle[:, None] + phases[k, :, m])
-        return out
-
-    return Change(tip=p["amplitude_um"] * (table(scene.reading) - table(scene.part_point)))
-
-
-def draw_sling(scene, rng):
-    setups = np.unique(scene.setup)
-    turn, out = rng.uniform(0, 2 * np.pi), rng.uniform(0.1, 0.6) * half_size(scene)
-    sways = rng.uniform(0, 2 * np.pi)
-    return {
-        "amplitude_um": 1.0,
-        "setup": int(rng.choice(setups)),
-        "eye_mm": [float(np.cos(turn) * out), float(np.sin(turn) * out)],
-        "wide_mm": float(rng.uniform(0.3, 0.6) * half_size(scene)),
-        "sways": [float(np.cos(sways)), float(np.sin(sways))],
-        "period_s": float(rng.uniform(3.0, 7.0)),
-        "phase": float(rng.uniform(0, 2 * np.pi)),
-        "share": float(rng.uniform(0.3, 0.7)),
-    }
-
-
-def change_sling(scene, p):
-    """In one placement the operator has forgotten to take off the sling. The hook of the crane still draws at the
-    eye bolt, and lifts the plate round about it; and as the hook swings to and fro on its long rope, as a
-    pendulum does, it draws now more and now less, and takes the part along in its feet. Amplitude of the lift at
-    the eye bolt."""
-    here = scene.setup == p["setup"]
-    way = centres(scene)[:, :2] - np.asarray(p["eye_mm"])
-    dome = 1 / (1 + np.sum(way**2, 1) / p["wide_mm"] ** 2)
-    slope = -2 * way * (dome**2 / p["wide_mm"] ** 2)[:, None]
-    swing = np.sin(2 * np.pi * scene.time / p["period_s"] + p["phase"])
-    lift = np.column_stack([-slope * centres(scene)[:, 2:], dome])
-    lift *= (1 + 0.5 * p["share"] * swing)[:, None]
-    pulled = np.outer(p["share"] * swing, np.append(p["sways"], 0.0))
-    moved = np.sum(scene.part_normal * lift, 1) + np.sum(scene.normal * pulled, 1)
-    return Change(along=p["amplitude_um"] * here * moved)
-
-
-def draw_carriage(scene, rng):
-    return {
-        "amplitude_um": 1.0,
-        "tips_at": float(rng.uniform(0.1, 0.35)),
-        "beam_mm": float(scene.target[:, 2].max() + rng.uniform(0.3, 1.0) * np.ptp(scene.target[:, 2])),
-        "first": int(rng.choice([-1, 1])),
-    }
-
-
-def change_carriage(scene, p):
-    """The carriage on the beam has lost the preload of its bearings, and has play. The weight of a lying head
-    tips it over to the side to which the stylus points across the beam, and there it stays, also when the stylus
-    stands upright or lies along the beam, until one on the other side tips it back. Amplitude at the lowest
-    touch, to either side."""
-    i = "xyz".index(scene.machine.chain[0])
-    weighs = scene.arm[:, i] / scene.length.max()
-    state, leans = float(p["first"]), np.zeros(scene.size)
-    for k in range(scene.size):
-        if abs(weighs[k]) > p["tips_at"]:
-            state = float(np.sign(weighs[k]))
-        leans[k] = state
-    below = p["beam_mm"] - scene.target[:, 2]
-    moved = np.zeros((scene.size, 3))
-    moved[:, i] = below / below.max()
-    moved[:, 2] = scene.tip[:, i] / below.max()
-    return Change(tip=p["amplitude_um"] * moved * leans[:, None])
-
-
-unknown("rattling_balls", draw_rattling, change_rattling, ["feature", "direction", "time"])
-unknown("knocked_reference", draw_knocked, change_knocked, ["time", "sensor", "head"], "D")
-unknown("nylon_stud", draw_foot, change_foot, ["temperature", "feature", "setup"], "D")
-unknown("oiling_pump", draw_pump, change_pump, ["time", "position"])
-unknown("forgetful_zero", draw_gauge, change_gauge, ["speed", "direction", "sensor", "head"], "D")
-unknown("misplaced_lookup", draw_map, change_map, ["feature", "setup", "position"], "D")
-unknown("forgotten_sling", draw_sling, change_sling, ["setup", "feature", "time", "position"])
-unknown("lolling_carriage", draw_carriage, change_carriage, ["head", "position", "time", "sensor"], "D")
+unknown("lost_signs", draw_signs, change_signs, ["position", "feature"])
+unknown("late_handshake", draw_handshake, change_handshake, ["time", "sensor", "head"], "D")
+unknown("borrowed_joystick", draw_joystick, change_joystick, ["time", "direction", "feature", "speed"])
+unknown("soft_lacquer", draw_lacquer, change_lacquer, ["feature", "direction", "time"])
+unknown("rare_weather", draw_weather, change_weather, ["time", "position"])
+unknown("magnetised_balls", draw_magnetised, change_magnetised, ["feature", "direction", "sensor", "head"])
+unknown("straddled_chip", draw_chip, change_chip, ["position", "feature"])
+unknown("warm_collet", draw_collet, change_collet, ["temperature", "direction", "sensor", "head"], "D")
