@@ -5,6 +5,7 @@ import io
 import json
 import pathlib
 import pty
+import re
 import subprocess
 import sys
 import tempfile
@@ -31,6 +32,18 @@ T(LEN)=TOL/DISTB,NOMINL,100.0,-0.01,0.01,PT2PT
 OUTPUT/FA(A),FA(B),TA(LEN)
 ENDFIL
 """
+
+
+def sphere(orientations, points):
+    """The sphere of examples/iso10360/form_and_size_5x25.dmi in its first orientations, each of its first points: a diagnosis of it takes less time."""
+    def kept(match):
+        orientation, *point = map(int, match["of"].split("_"))
+        return match[0] if orientation <= orientations and all(p <= points for p in point) else ""
+    text = (ROOT / "examples/iso10360/form_and_size_5x25.dmi").read_text()
+    text = re.sub(r"\$\$ Orientation (?P<of>\d).*?(?=\$\$ Orientation|F\(ALL\))", kept, text, flags=re.S)
+    text = re.sub(r"F\(P(?P<of>\d_\d+)\)=.*?ENDMES\n", kept, text, flags=re.S)
+    text = re.sub(r",(\$\n +)?FA\(P(?P<of>\d_\d+)\)", kept, text)
+    return re.sub(r"T\(C_\d(?P<of>\d)\).*\nOUTPUT.*\n", kept, text)
 
 
 class Case(unittest.TestCase):
