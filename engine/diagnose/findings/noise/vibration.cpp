@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/diagnose/explanations/value_called.hpp"
 #include "engine/diagnose/findings/noise/noise_property.hpp"
 #include "engine/effects/noise/noise.hpp"
 
@@ -96,11 +97,11 @@ void plan_vibration(const ScatterDesign& design, Diagnosis& out) {
   const auto told = std::find_if(forms.begin(), forms.end(), [&](const ScatterForm& f) { return f.*by == size; });
   Detectable d = smallest_of(kVibration, "sd_um", "um");
   d.detect = d.detect_um = design.noise_um() * std::sqrt(told->detected);
-  if (named) d.name = d.name_um = design.noise_um() * std::sqrt(std::max(told->named, told->detected));
+  if (named) d.name = d.name_um = design.noise_um() * std::sqrt(told->named);
   const auto& direction = *std::find_if(kVibration.parameters.begin(), kVibration.parameters.end(),
                                         [](const EffectParameter& p) { return p.name == "direction"; });
   const int code = directions[static_cast<std::size_t>(told - forms.begin())];
-  d.form.push_back({.name = std::string(direction.name), .word = std::string(direction.choices[code])});
+  d.form.push_back({.name = std::string(direction.name), .word = word_of(direction, code, design.planned().touches)});
   out.smallest_detectable.push_back(std::move(d));
 }
 
