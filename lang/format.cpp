@@ -17,7 +17,7 @@ constexpr std::size_t kIndent = 2, kContinuationIndent = 4;
 /// A program that forgets its ENDMES hundreds of times must not grow with the square of its length.
 constexpr int kDeepest = 12;
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   std::string out = "'";
   for (const char c : text) out += c == '\'' ? std::string("''") : std::string(1, c);
   return out + "'";
@@ -25,7 +25,7 @@ std::string quoted(std::string_view text) {
 
 std::string written(const RawArgument& argument) {
   switch (argument.kind) {
-    case RawArgument::Kind::text: return quoted(argument.text);
+    case RawArgument::Kind::text: return in_quotes(argument.text);
     case RawArgument::Kind::label: return written(argument.label);
     case RawArgument::Kind::word: {
       const std::string word = upper(argument.text);

@@ -11,13 +11,15 @@ namespace abbe {
 
 namespace {
 
-/// Five decimals as real result files print them, without a negative zero.
-std::string decimal(double value) {
+/// As real result files print them, without a negative zero.
+std::string five_decimals(double value) {
   std::string text = fmt::format("{:.5f}", value);
   return text == "-0.00000" ? text.substr(1) : text;
 }
 
-std::string numbers(const Vec3& v) { return decimal(v.x) + ", " + decimal(v.y) + ", " + decimal(v.z); }
+std::string numbers(const Vec3& v) {
+  return five_decimals(v.x) + ", " + five_decimals(v.y) + ", " + five_decimals(v.z);
+}
 
 /// A quote inside a text is written twice.
 std::string dmis_text(const std::string& text) {
@@ -28,7 +30,7 @@ std::string dmis_text(const std::string& text) {
 
 struct ArgumentText {
   std::string operator()(std::string_view word) const { return std::string(word); }
-  std::string operator()(double number) const { return decimal(number); }
+  std::string operator()(double number) const { return five_decimals(number); }
   std::string operator()(const Vec3& v) const { return numbers(v); }
 };
 
@@ -51,9 +53,9 @@ std::string tolerance_arguments(const plan::ToleranceDef& def, const OutputRecor
   const std::string status = inside(result.value, result.limits) ? "INTOL" : "OUTOL";
   const std::string word(def.kind->word);
   const std::string axis = def.arguments.text("axis");
-  if (word.starts_with("DIST")) return fmt::format("{}, {}, NOMINL, {}, {}", word, status, decimal(value), axis);
+  if (word.starts_with("DIST")) return fmt::format("{}, {}, NOMINL, {}, {}", word, status, five_decimals(value), axis);
   const std::string qualifier = !axis.empty() ? axis : def.arguments.text("space");
-  return fmt::format("{}{}{}, {}, {}", word, qualifier.empty() ? "" : ", ", qualifier, decimal(value), status);
+  return fmt::format("{}{}{}, {}, {}", word, qualifier.empty() ? "" : ", ", qualifier, five_decimals(value), status);
 }
 
 /// Nine decimals of the axes: who reads the system back turns positions of a metre by them.

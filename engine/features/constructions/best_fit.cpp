@@ -13,7 +13,7 @@ namespace {
 constexpr const char* kTooFew = "too few features for a best fit of this kind";
 
 /// A fit error as text that outlives the fit.
-const char* reason_of(const FitError& error) {
+const char* best_fit_reason(const FitError& error) {
   if (error.code == "too_few_points") return kTooFew;
   if (error.code == "identical_points") return "the points of the features are identical";
   if (error.code == "collinear_points") return "the points of the features lie on one line";
@@ -36,7 +36,7 @@ Outcome<Element> construct_best_fit(Shape result, Shapes shapes, Elements from, 
   problem.points.reserve(from.size());
   for (std::size_t k = 0; k < from.size(); ++k) problem.points.push_back(location_of(shapes[k], from[k]));
   const FitSolution fitted = fit_points(problem);
-  if (fitted.error) return cannot(reason_of(*fitted.error));
+  if (fitted.error) return cannot(best_fit_reason(*fitted.error));
   Element made = fitted.element;
   if (result == Shape::point) made.direction = nominal.direction;
   return {turned_to(result, made, nominal.direction)};

@@ -11,7 +11,7 @@ using namespace abbe::lang;
 
 namespace {
 
-struct Compiled {
+struct CompiledBeside {
   Compilation result;
   Sink sink;
 
@@ -22,8 +22,8 @@ struct Compiled {
 };
 
 /// A program that lies beside the modules of tests/lang.
-Compiled compile_beside_modules(const std::string& text) {
-  Compiled out;
+CompiledBeside compile_beside_modules(const std::string& text) {
+  CompiledBeside out;
   out.result = compile(SourceFile(std::string(ABBE_SOURCE_DIR) + "/tests/lang/modules/program.dmi", text), out.sink);
   return out;
 }
@@ -33,14 +33,16 @@ Compiled compile_beside_modules(const std::string& text) {
 TEST_CASE("what follows a module that never ends is checked in the program") {
   for (const std::string module : {"itself", "endless"}) {
     INFO(module);
-    const Compiled c = compile_beside_modules(fmt::format("DMISMN/'a',5.2\nINCLUD/DMIS,'{}'\nFOOBAR/1\n", module));
+    const CompiledBeside c =
+        compile_beside_modules(fmt::format("DMISMN/'a',5.2\nINCLUD/DMIS,'{}'\nFOOBAR/1\n", module));
     CHECK(c.lines_with(module == "itself" ? Code::E0237 : Code::E0120, module == "itself" ? 2 : 3) == 1);
     CHECK(c.lines_with(Code::E0110, 3) == 1);
   }
 }
 
 TEST_CASE("definitions in a module have the place of its call") {
-  const Compiled c = compile_beside_modules("DMISMN/'a',5.2\nINCLUD/DMIS,'long_preface'\nT(1)=TOL/FLAT,0.2\nENDFIL\n");
+  const CompiledBeside c =
+      compile_beside_modules("DMISMN/'a',5.2\nINCLUD/DMIS,'long_preface'\nT(1)=TOL/FLAT,0.2\nENDFIL\n");
   const SourceFile program("program.dmi", "DMISMN/'a',5.2\nINCLUD/DMIS,'long_preface'\n");
   REQUIRE(c.result.plan.sensors.size() == 2);
   for (const plan::SensorDef& sensor : c.result.plan.sensors) CHECK(program.place(sensor.span.begin).line == 2);
@@ -49,13 +51,13 @@ TEST_CASE("definitions in a module have the place of its call") {
 }
 
 TEST_CASE("a measurement that a module leaves open is one of its call") {
-  const Compiled c = compile_beside_modules(
+  const CompiledBeside c = compile_beside_modules(
       "DMISMN/'a',5.2\nSNSLCT/SA(PROBE)\nF(P)=FEAT/PLANE,CART,0,0,0,0,0,1\nINCLUD/DMIS,'open_measurement'\nENDFIL\n");
   CHECK(c.lines_with(Code::E0205, 4) == 1);
 }
 
 TEST_CASE("tolerances of two modules are two, wherever they stand in them") {
-  const Compiled c = compile_beside_modules(
+  const CompiledBeside c = compile_beside_modules(
       "DMISMN/'a',5.2\nDECL/REAL,X\nSNSLCT/SA(PROBE)\nF(P)=FEAT/PLANE,CART,0,0,0,0,0,1\nMEAS/PLANE,F(P),4\nENDMES\n"
       "X=OBTAIN/FA(P),5\nIF/(X .GT. 0)\nINCLUD/DMIS,'flat_a'\nELSE\nINCLUD/DMIS,'flat_b'\nENDIF\nOUTPUT/FA(P),TA(1)\n"
       "ENDFIL\n");
