@@ -100,15 +100,35 @@ def foreign_headers(path):
         *(foreign_headers(ROOT / name) for kind, name in included if kind == '"')))
 
 
-def read_together(headers):
-    """A few sets of foreign headers, of which many headers include a whole one, the largest first."""
+@functools.cache
+def own_headers(path):
+    """What a file includes of this project, by itself or through headers."""
+    included = {ROOT / name for name in re.findall(r'^#include "(.*)"', path.read_text(), re.M)}
+    return frozenset(included.union(*(own_headers(header) for header in included if header.exists())))
+
+
+def chains(headers):
+    """The headers in lists in which each is included by the next. All of a list can be compiled as one and each still stands alone: what
+    is there before it is only what it includes itself."""
+    found = []
+    for path in sorted(headers, key=lambda path: (len(own_headers(path)), path)):
+        fitting = [chain for chain in found if chain[-1] in own_headers(path)]
+        if fitting:
+            max(fitting, key=lambda chain: len(own_headers(chain[-1]))).append(path)
+        else:
+            found.append([path])
+    return found
+
+
+def read_together(wanted):
+    """A few sets of foreign headers, of which many of the wanted sets hold a whole one, the largest first."""
     # Reading them takes most of the time of a header: about as long for each, but for Eigen's.
     def cost(names):
         return sum(10 if name.startswith("Eigen") else 1 for name in names)
 
     def saved(sets):
-        return sum(max(cost(s) if s <= foreign_headers(path) else 0 for s in sets) for path in headers)
-    chosen, candidates = [frozenset()], sorted({foreign_headers(path) for path in headers}, key=sorted)
+        return sum(max(cost(s) if s <= names else 0 for s in sets) for names in wanted)
+    chosen, candidates = [frozenset()], sorted(set(wanted), key=sorted)
     for _ in range(10):
         chosen.append(max(candidates, key=lambda s: saved([*chosen, s])))
     return sorted(set(chosen), key=cost, reverse=True)
@@ -116,7 +136,7 @@ def read_together(headers):
 
 def check_headers(compiler, eigen):
     options = ["-std=c++20", "-Wall", "-Wextra", "-I", str(ROOT), "-isystem", eigen]
-    headers = list(sources(".hpp"))
+    lists = chains(sources(".hpp"))
     with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         def precompile(numbered):
             number, names = numbered
@@ -124,15 +144,16 @@ def check_headers(compiler, eigen):
             together.write_text("".join(f"#include <{name}>\n" for name in sorted(names)))
             subprocess.run([compiler, *options, "-x", "c++-header", str(together), "-o", f"{together}.gch"], check=True)
             return names, together
-        compiled = list(pool.map(precompile, enumerate(read_together(headers))))
+        compiled = list(pool.map(precompile, enumerate(read_together([foreign_headers(chain[0]) for chain in lists]))))
 
-        def compile_alone(path):
-            # Only what it includes anyway is there before it.
-            before = next(together for names, together in compiled if names <= foreign_headers(path))
-            run = subprocess.run([compiler, *options, "-fsyntax-only", "-include", str(before), "-include", str(path), "-x", "c++",
-                                  "/dev/null"], capture_output=True, text=True)
-            return [] if run.returncode == 0 else [f"{path.relative_to(ROOT)} does not compile alone:\n{run.stderr}"]
-        return [line for lines in pool.map(compile_alone, headers) for line in lines]
+        def compile_alone(chain):
+            # Only what the first includes anyway is there before it.
+            before = next(together for names, together in compiled if names <= foreign_headers(chain[0]))
+            included = [option for path in (before, *chain) for option in ("-include", str(path))]
+            run = subprocess.run([compiler, *options, "-fsyntax-only", *included, "-x", "c++", "/dev/null"], capture_output=True, text=True)
+            names = ", ".join(str(path.relative_to(ROOT)) for path in chain)
+            return [] if run.returncode == 0 else [f"one of {names} does not compile alone:\n{run.stderr}"]
+        return [line for lines in pool.map(compile_alone, lists) for line in lines]
 
 
 def check_codes():
@@ -155,13 +176,6 @@ def check_files():
         if lines > 500:
             wrong.append(f"{path.relative_to(ROOT)} has {lines} lines; the limit is 500")
     return wrong
-
-
-@functools.cache
-def own_headers(path):
-    """What a file includes of this project, by itself or through headers."""
-    included = {ROOT / name for name in re.findall(r'^#include "(.*)"', path.read_text(), re.M)}
-    return frozenset(included.union(*(own_headers(header) for header in included if header.exists())))
 
 
 def constants_not_included():
