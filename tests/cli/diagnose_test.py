@@ -16,8 +16,9 @@ BAR = harness.LENGTH.split("F(A)=")[0] + "F(A)=FEAT/PLANE,CART,-400,0,0,-1,0,0\n
 
 
 class Diagnose(harness.Case):
-    def record(self, *options, name="rec.csv"):
-        self.abbe("record", PROGRAM, "--machine", MACHINE, "-o", name, *options)
+    def record(self, *options, name="rec.csv", whole=False):
+        """Of a part of PROGRAM, unless it is to be the whole."""
+        self.abbe("record", PROGRAM if whole else self.sphere(), "--machine", MACHINE, "-o", name, *options)
         return self.folder / name
 
     def diagnosis(self, *args, code=0):
@@ -51,7 +52,7 @@ class Diagnose(harness.Case):
         self.assertEqual({len(column) for column in residuals.values()}, {said["touches"]})
         self.assertLess(sum(r * r for r in residuals["after_um"]), sum(r * r for r in residuals["before_um"]))
         # The machine file with the effect in it gives larger uncertainties than the one without.
-        u = lambda machine: json.loads(self.abbe("run", PROGRAM, "--machine", machine, "--machines", 200, "--format", "json").stdout)["characteristics"][0]
+        u = lambda machine: json.loads(self.abbe("run", self.sphere(), "--machine", machine, "--machines", 200, "--format", "json").stdout)["characteristics"][0]
         with_effect, without = u("improved.json"), u(MACHINE)
         self.assertNotEqual(with_effect["mean"], without["mean"])
         # And what was found is no mismatch any more for the machine as it is known now.
@@ -110,7 +111,7 @@ class Diagnose(harness.Case):
         quiet = json.loads(MACHINE.read_text())
         quiet["effects"] = [{"name": "noise.vibration", "parameters": {"sd_um": {"value": 5, "u": 0.1}}}]
         self.write("quiet.json", json.dumps(quiet))
-        recording = self.record("--with", "noise.vibration:sd_um=13")
+        recording = self.record("--with", "noise.vibration:sd_um=13", whole=True)
         said = json.loads(self.abbe("diagnose", recording, "--machine", "quiet.json", "--format", "json", "--model-out", "loud.json").stdout)
         self.assertIn("beside what the machine file has", said["effects"][-1]["sentence"])
         loud = json.loads((self.folder / "loud.json").read_text())["effects"]
@@ -198,7 +199,7 @@ class Diagnose(harness.Case):
 
     def test_values_of_a_list_that_fit_as_well_are_told(self):
         """Nodes every 50 mm were told as nodes every 25 mm for certain."""
-        recording = self.record("--seed", 3, "--with", "machine.map_scallops:amplitude_um=4,spacing_mm=50")
+        recording = self.record("--seed", 3, "--with", "machine.map_scallops:amplitude_um=4,spacing_mm=50", whole=True)
         spacing = self.diagnosis(recording)["effects"][0]["parameters"]["spacing_mm"]
         others = {other["value"]: other["probability"] for other in spacing["others"]}
         self.assertEqual({f"{spacing['value']:g} mm", *others} & {"25 mm", "50 mm"}, {"25 mm", "50 mm"})
@@ -217,7 +218,7 @@ class Diagnose(harness.Case):
         def without_clock(row):
             del row["time_s"]
             return row
-        shifted = self.record("--with", "part.shift:amplitude_um=12,t0_s=100,direction=x")
+        shifted = self.record("--with", "part.shift:amplitude_um=12,t0_s=100,direction=x", whole=True)
         said = self.diagnosis(self.changed(shifted, without_clock))
         self.assertEqual(said["verdict"], "cannot_judge")
         self.assertEqual(said["effects"][0]["probability"], 0.5)
@@ -229,15 +230,15 @@ class Diagnose(harness.Case):
         def bare(row):
             return {k: row[k] for k in ("feature", "touch", "x", "y", "z")}
         bare_recording = self.changed(self.record("--with", "probe.tip_radius:amplitude_um=3"), bare)
-        said = self.diagnosis(bare_recording, "--program", PROGRAM)
+        said = self.diagnosis(bare_recording, "--program", self.sphere())
         self.assertNotEqual(said["verdict"], "no_mismatch")
         self.refused("E0543", "diagnose", bare_recording, "--machine", MACHINE)
 
         def renamed(row):
             return bare(row) | {"feature": "ELSEWHERE"}
-        self.refused("E0544", "diagnose", self.changed(self.record(), renamed), "--program", PROGRAM, "--machine", MACHINE)
+        self.refused("E0544", "diagnose", self.changed(self.record(), renamed), "--program", self.sphere(), "--machine", MACHINE)
         other = self.changed(self.record(), lambda row: row | {"feature": "ELSEWHERE"})   # with targets of its own
-        self.assertIn("or none", self.refused("E0544", "diagnose", other, "--program", PROGRAM, "--machine", MACHINE))
+        self.assertIn("or none", self.refused("E0544", "diagnose", other, "--program", self.sphere(), "--machine", MACHINE))
 
     def test_data_problems_are_recognised(self):
         recording = self.record()

@@ -14,7 +14,7 @@ MACHINE = harness.ROOT / "examples/iso10360/portal-2009.json"
 class Unexplained(harness.Case):
     def recorded(self, name, dent):
         """A recording of a sphere that is larger by dent(normal, share of the touches before) mm, which no effect makes."""
-        self.abbe("record", PROGRAM, "--machine", MACHINE, "-o", "clean.csv", "--seed", 4)
+        self.abbe("record", self.sphere(), "--machine", MACHINE, "-o", "clean.csv", "--seed", 4)
         lines = (self.folder / "clean.csv").read_text().splitlines()
         comments = [line for line in lines if line.startswith("#")]
         rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
@@ -89,7 +89,7 @@ class Unexplained(harness.Case):
 
     def test_two_effects_are_named_though_neither_is_the_likeliest(self):
         """A larger tip with lobes looks most like a tip that is not round, and more like a pattern."""
-        self.abbe("record", PROGRAM, "--machine", MACHINE, "--seed", 1, "-o", "pair.csv",
+        self.abbe("record", self.sphere(), "--machine", MACHINE, "--seed", 1, "-o", "pair.csv",
                   "--with", "probe.tip_radius:amplitude_um=2", "--with", "probe.pretravel_lobing:amplitude_um=0.15")
         said = self.diagnosis("pair.csv", "--machine", MACHINE)
         members = [e["members"] for e in said["effects"]]
@@ -119,7 +119,7 @@ class Unexplained(harness.Case):
         after = self.diagnosis(recording, "--machine", "improved.json")
         left = after["unexplained"]["amplitude_um"]["value"] if after["unexplained"] else 0
         self.assertLess(left, 0.7 * before["unexplained"]["amplitude_um"]["value"])
-        size = lambda machine: next(c for c in self.run_json(PROGRAM, "--machine", machine, "--machines", 100)["characteristics"] if c["tolerance"] == "FORM")
+        size = lambda machine: next(c for c in self.run_json(self.sphere(), "--machine", machine, "--machines", 100)["characteristics"] if c["tolerance"] == "FORM")
         self.assertGreater(size("improved.json")["mean"], size(MACHINE)["mean"] + 0.001)
 
     def test_a_pattern_that_no_program_shares_is_saved_as_one_that_it_does(self):
@@ -136,7 +136,7 @@ class Unexplained(harness.Case):
 
     def test_empirical_effects_move_what_they_say(self):
         def touches(*options):
-            self.abbe("record", PROGRAM, "--machine", MACHINE, "-o", "rec.csv", *options)
+            self.abbe("record", self.sphere(), "--machine", MACHINE, "-o", "rec.csv", *options)
             lines = [line for line in (self.folder / "rec.csv").read_text().splitlines() if not line.startswith("#")]
             return list(csv.DictReader(lines))
         clean = touches()

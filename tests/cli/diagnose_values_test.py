@@ -159,7 +159,7 @@ class Values(harness.Case):
 
     def test_the_size_of_what_bends_a_form_is_sought_beside_the_errors_of_a_machine(self):
         """Forms and distances in space: what a machine's errors make of them and what lobing makes of them do not add up."""
-        program, machine = self.write("sphere.dmi", harness.sphere(2, 9)), harness.ROOT / "examples/iso10360/portal-2009.json"
+        program, machine = self.sphere(orientations=2, points=range(1, 10)), harness.ROOT / "examples/iso10360/portal-2009.json"
         far = []
         for seed in range(50, 58):
             self.abbe("record", program, "--machine", machine, "--seed", seed, "--with", "probe.pretravel_lobing:amplitude_um=1", "-o", "touches.csv", "--dmo", "values.dmo")

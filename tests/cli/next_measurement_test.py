@@ -25,7 +25,7 @@ class NextMeasurement(harness.Case):
 
     def decided(self, effect, plan, moved=False):
         """The members that are left when the wish for `plan` came true; it must be part of the best change."""
-        first = self.record(PROGRAM, "first.csv", effect)
+        first = self.record(self.sphere(), "first.csv", effect)
         said = self.diagnosis(first)
         best = said["next_measurement"][0]
         self.assertIn(plan, best["change"])
