@@ -44,6 +44,8 @@ unsigned missing_of(const Effect& effect, const RecordedTouches& t) {
   return absent | constant;
 }
 
+constexpr double kNobodyWeighed_kg = 100;
+
 /// Scenes in which what was not logged has a value that lets the effect act, so that it stays an explanation,
 /// though one that cannot be judged: a deviation from 20 degrees C that nobody noted, a load that nobody
 /// weighed. A part or a scale without a thermometer follows those that have one: what expands with it would else be taken
@@ -58,7 +60,7 @@ TouchScene with_surrogates(TouchScene scene, const RecordedTouches& t) {
   const double part = varies(Covariate::part_temperature) ? scene.temperature.part : room;
   if (unknown(Covariate::part_temperature)) scene.temperature.part = scales;
   if (unknown(Covariate::scale_temperature)) x = y = z = part;
-  if (unknown(Covariate::load)) scene.load_kg = 100;
+  if (unknown(Covariate::load)) scene.load_kg = kNobodyWeighed_kg;
   return scene;
 }
 
@@ -68,22 +70,26 @@ class Evaluation {
   Evaluation(const Effect& effect, const RecordedTouches& t, const std::vector<int>& rows) : effect_(effect) {
     std::map<int, double> begin_s;  // by file; touches stand in the order of time
     const bool assumes = (effect.needs & kMayBeAssumed & ~t.known) != 0;
+    for (std::size_t p = 0; p < effect.parameters.size(); ++p)
+      if (effect.parameters[p].sought == Sought::load_setup) load_setup_ = static_cast<int>(p);
     for (const int i : rows) {
       const TouchScene scene = scene_for(effect, t.touches[i]);
       if (assumes) logged_.push_back(scene);
       scenes_.push_back(with_surrogates(scene, t));
+      if (load_setup_ >= 0) unweighed_.push_back(scenes_.back()), unweighed_.back().load_kg = kNobodyWeighed_kg;
       start_s_.push_back(begin_s.try_emplace(t.touches[i].file, scenes_.back().time_s).first->second);
     }
   }
 
   Vector column(const std::vector<double>& theta, RunChange change, const std::vector<double>& draws,
                 int visit = -1) const {
-    return column(scenes_, theta, change, draws, visit);
+    return column(in_one_setup(theta) ? unweighed_ : scenes_, theta, change, draws, visit);
   }
 
   /// Whether it does anything only by what nobody logged.
   bool is_assumed(const std::vector<double>& theta, RunChange change) const {
-    return !logged_.empty() && column(logged_, theta, change, {}, -1).cwiseAbs().maxCoeff() < kNothing_um;
+    return in_one_setup(theta) ||
+        (!logged_.empty() && column(logged_, theta, change, {}, -1).cwiseAbs().maxCoeff() < kNothing_um);
   }
 
   static constexpr double kNothing_um = 1e-6;
@@ -95,6 +101,9 @@ class Evaluation {
   }
 
  private:
+  /// Whether a load is meant that nobody weighed: of one placement, where no load or one for all was logged.
+  bool in_one_setup(const std::vector<double>& theta) const { return load_setup_ >= 0 && theta[load_setup_] != 0; }
+
   Vector column(const std::vector<TouchScene>& scenes, const std::vector<double>& theta, RunChange change,
                 const std::vector<double>& draws, int visit) const {
     Vector r = Vector::Zero(static_cast<Eigen::Index>(scenes.size()));
@@ -118,8 +127,10 @@ class Evaluation {
 
   const Effect& effect_;
   std::vector<TouchScene> scenes_;
-  std::vector<TouchScene> logged_;  ///< without surrogates, if the effect has any
-  std::vector<double> start_s_;     ///< of the file that each is of
+  std::vector<TouchScene> logged_;     ///< without surrogates, if the effect has any
+  std::vector<TouchScene> unweighed_;  ///< of an effect that has `load_setup_`: with the load that is assumed
+  int load_setup_ = -1;                ///< the parameter that tells in which placement there is a load
+  std::vector<double> start_s_;        ///< of the file that each is of
 };
 
 /// Every combination of the values tried, with what each stands for.

@@ -171,6 +171,9 @@ ParameterGrid grid_of(const EffectParameter& p, const RecordedTouches& t, double
     case Sought::direction: return {.kind = ParameterGrid::Kind::direction};
     case Sought::stylus: return each_for_itself(ordinals(t.styli.size()));
     case Sought::setup: return each_for_itself(setups(t));
+    case Sought::load_setup:
+      return each_for_itself((t.varying & static_cast<unsigned>(Covariate::load)) == 0 ? setups(t)
+                                                                                       : std::vector<double>{0});
     case Sought::tip: return each_for_itself(ordinals(t.tips > int(t.styli.size()) ? std::size_t(t.tips) : 0));
     case Sought::not_at_all: break;
   }

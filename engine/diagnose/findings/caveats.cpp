@@ -105,9 +105,13 @@ std::string whose_surroundings(const Case& c, const Effect& effect, const Varian
            });
   };
   if (std::none_of(variant.columns.begin(), variant.columns.end(), told_by_assumption)) return "";
+  const std::vector<std::string> absent = columns_of(effect.needs & kMayBeAssumed & ~c.touches.known);
+  const std::string why = absent.empty()
+      ? fmt::format("In the recording {} is the same throughout, whatever the placement",
+                    fmt::join(columns_of(effect.needs & kMayBeAssumed & ~c.touches.varying), ", "))
+      : fmt::format("The recording has no {}", fmt::join(absent, ", "));
   return fmt::format(
-      " The recording has no {}, and this size goes by a value that was assumed: log it. Until then no machine file carries it.",
-      fmt::join(columns_of(effect.needs & kMayBeAssumed & ~c.touches.known), ", "));
+      " {}, and this size goes by a value that was assumed: log it. Until then no machine file carries it.", why);
 }
 
 std::string whose_clock(const Case& c, const Effect& effect) {

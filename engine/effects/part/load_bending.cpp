@@ -10,7 +10,8 @@
 // the sides of the table follow its curvature along x only (q = 0). The guides pitch with their
 // slope, so the sag comes with its Abbe part (bent_guide.hpp; here the middle is low, which is a
 // negative arch). The part is stiff, or stands on three points: it does not bend with the table. m
-// is the logged load plus `mass_kg`. Size: 0.5 to 5 um per 500 kg.
+// is the logged load plus `mass_kg`; it may be there in one placement only (`setup`), which a diagnosis
+// seeks where loads were not logged. Size: 0.5 to 5 um per 500 kg.
 // Source: elastic plate, deflection proportional to the load; ISO 10360-2 tests under load where
 // the maker rates one.
 // Confused with: thermal.table_bending (a bowl against an arch along x only), quadratic ezx and ezy
@@ -49,9 +50,15 @@ constexpr EffectParameter kLoadBendingParameters[] = {
      .standard = 1,
      .sought = Sought::listed,
      .tried = kRailsOrBowl},
+    {.name = "setup",
+     .unit = "code",
+     .help = "in which placement of the part the load is on the table; 0: in every one",
+     .high = 1e6,
+     .sought = Sought::load_setup},
 };
 
 Vec3 load_bending(const TouchScene& scene, const double* theta, const double*) {
+  if (!placed_in(scene, theta[3])) return {};
   const double load = (scene.load_kg + theta[1]) / kRatedLoad_kg, travel = scene.travel_length_mm[scene.on_table];
   const double curvature = 8 * theta[0] * kUm * load / (travel * travel);
   return bent_guide(scene, scene.on_table, -curvature) + bent_guide(scene, 1 - scene.on_table, -theta[2] * curvature);

@@ -271,6 +271,10 @@ TEST_CASE("a size that goes by what nobody logged is no figure for a machine fil
   const std::string parameter(bending.parameters[0].name);
   CHECK(whose_surroundings(t.c, bending, variant, {{.name = parameter}}).find("no load_kg") != std::string::npos);
   CHECK(whose_surroundings(t.c, bending, variant, {}).empty());  // another one is told
+  t.c.touches.known |= static_cast<unsigned>(Covariate::load);
+  t.c.touches.varying &= ~static_cast<unsigned>(Covariate::load);
+  CHECK(whose_surroundings(t.c, bending, variant, {{.name = parameter}}).find("load_kg is the same throughout") !=
+        std::string::npos);
   variant.columns[0].assumed = false;
   CHECK(whose_surroundings(t.c, bending, variant, {{.name = parameter}}).empty());
 }

@@ -56,6 +56,17 @@ TEST_CASE("load bending: a mass given as a parameter counts like a logged one") 
         displacement_mm(kLoadBending, unknown, {{"sag_um_per_500kg", 2}, {"mass_kg", 300}}));
 }
 
+TEST_CASE("load bending: the load may be on the table in one placement only") {
+  TouchScene scene = touch_under_load(300, {400, 300, 0}, {0, 0, 200});
+  scene.setup = 2;
+  const Parameters everywhere = {{"sag_um_per_500kg", 2}};
+  const auto in_setup = [&](double setup) {
+    return displacement_mm(kLoadBending, scene, {{"sag_um_per_500kg", 2}, {"setup", setup}});
+  };
+  CHECK(in_setup(2) == displacement_mm(kLoadBending, scene, everywhere));
+  CHECK(in_setup(1) == Vec3{});
+}
+
 TEST_CASE("clamping: deflections at half the part's size") {
   const Vec3 up{0, 0, 1};
   CHECK(reading_um(kClamping, touch_on_part({250, 0, 0}, up), {{"bow_um", 3}}) == doctest::Approx(3));
