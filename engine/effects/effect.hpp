@@ -128,6 +128,7 @@ enum class Sought {
   tip,            ///< the ordinals of the tips, a stylus in one orientation each; 0 for all
   setup,          ///< the placements of the part, 0 for all
   load_setup,     ///< likewise, where the load of each was not logged
+  warm_setup,     ///< likewise, where the temperature of the part was not logged
 };
 
 /// Where a parameter counts: with `choice` at `word`, or at any other of its words (`not_at`); no choice: everywhere.

@@ -362,24 +362,38 @@ class Columns(harness.Case):
         both = [self.write(f"unknown_{path.name}", "# surfaces: unknown\n" + path.read_text()) for path in (whole, moved)]
         self.assertNotIn("W0710", self.codes(self.diagnosis(*both)))
 
-    def test_a_load_that_nobody_weighed_in_one_placement_is_no_clamping(self):
-        """It had passed for clamping, or for what no effect explains: its load was not logged, or once for all placements."""
+    def balls_on_the_table(self, *planted, **parts):
+        """Nine balls all over the table in three placements, the second of a part that differs from the others."""
         around = ((0, 0, 1), (1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0))
         balls = [(x, y, z) for x, z in ((300, -500), (800, -350), (1300, -500)) for y in (250, 500, 750)]
         program = self.write("balls.dmi", harness.LENGTH.split("D(R)=")[0] + "".join(
             f"F(B{k})=FEAT/SPHERE,OUTER,CART,{x},{y},{z},30\nMEAS/SPHERE,F(B{k}),5\n"
             + "".join(f"PTMEAS/CART,{x + 15 * i},{y + 15 * j},{z + 15 * l},{i},{j},{l}\n" for i, j, l in around) + "ENDMES\n"
             for k, (x, y, z) in enumerate(balls)) + "ENDFIL\n")
-        weighed = []
-        for setup, load_kg in ((1, 20), (2, 400), (3, 20)):
-            part = self.write("part.json", json.dumps({"schema": "abbe.workpiece/1", "name": "balls", "load_kg": load_kg}))
-            weighed.append(self.record("--workpiece", part, "--setup", setup, "--with", "part.load_bending:sag_um_per_500kg=4", name=f"{setup}.csv", program=program))
+        for setup in (1, 2, 3):
+            part = self.write("part.json", json.dumps({"schema": "abbe.workpiece/1", "name": "balls", **parts["other" if setup == 2 else "usual"]}))
+            yield self.record("--workpiece", part, "--setup", setup, *planted, name=f"{setup}.csv", program=program)
+
+    def test_a_load_that_nobody_weighed_in_one_placement_is_no_clamping(self):
+        """It had passed for clamping, or for what no effect explains: its load was not logged, or once for all placements."""
+        weighed = list(self.balls_on_the_table("--with", "part.load_bending:sag_um_per_500kg=4", usual={"load_kg": 20}, other={"load_kg": 400}))
         self.assertEqual([(e["members"], e["probability"] > 0.9) for e in self.diagnosis(*weighed)["effects"]], [(["part.load_bending"], True)])
         for load_kg, missed in (("", "The recording has no load_kg"), ("20", "load_kg is the same throughout")):
             said = self.diagnosis(*(self.changed(path, lambda row: row | {"load_kg": load_kg}, f"{path.stem}_{load_kg}.csv") for path in weighed))
             self.assertEqual((said["verdict"], [(e["members"][0], e["probability"]) for e in said["effects"]]), ("cannot_judge", [("part.load_bending", 0.5)]))
             self.assertEqual(said["effects"][0]["parameters"]["setup"]["value"], 2)
             self.assertIn(missed, said["effects"][0]["sentence"])
+
+    def test_a_part_that_was_warm_in_one_placement_is_thought_of(self):
+        """It was what no effect explains, where its temperature was not logged or taken for 20 degrees C."""
+        at = lambda part_C: {"material": {"cte_ppm_per_K": 0}, "temperature": {"part_C": part_C, "scale_C": 20}}   # its growth is the effect that is planted
+        warm = list(self.balls_on_the_table("--with", "thermal.part_expansion:cte_error_ppm_per_K=11.5", usual=at(20), other=at(23)))
+        for C in ("", "20"):
+            said = self.diagnosis(*(self.changed(path, lambda row: row | {c: C for c in row if c.startswith("temp_")}, f"{path.stem}_{C}.csv") for path in warm))
+            self.assertEqual((said["verdict"], [(e["members"], e["probability"]) for e in said["effects"]]), ("cannot_judge", [(["thermal.part_expansion"], 0.5)]))
+            told = said["effects"][0]["parameters"]
+            self.assertEqual(told["setup"]["value"], 2)
+            self.assertLess(abs(told["temperature_error_K"]["value"] - 3), 3 * told["temperature_error_K"]["u"])
 
 
 if __name__ == "__main__":

@@ -44,7 +44,7 @@ unsigned missing_of(const Effect& effect, const RecordedTouches& t) {
   return absent | constant;
 }
 
-constexpr double kNobodyWeighed_kg = 100;
+constexpr double kNobodyWeighed_kg = 100, kNobodyNoted_C = 21;
 
 /// Scenes in which what was not logged has a value that lets the effect act, so that it stays an explanation,
 /// though one that cannot be judged: a deviation from 20 degrees C that nobody noted, a load that nobody
@@ -53,7 +53,6 @@ constexpr double kNobodyWeighed_kg = 100;
 TouchScene with_surrogates(TouchScene scene, const RecordedTouches& t) {
   const auto unknown = [&](Covariate c) { return (t.known & static_cast<unsigned>(c)) == 0; };
   const auto varies = [&](Covariate c) { return (t.varying & static_cast<unsigned>(c)) != 0; };
-  constexpr double kNobodyNoted_C = 21;
   auto& [x, y, z] = scene.temperature.scale;
   const double room = varies(Covariate::air_temperature) ? scene.temperature.air : kNobodyNoted_C;
   const double scales = varies(Covariate::scale_temperature) ? (x + y + z) / 3 : room;
@@ -71,25 +70,29 @@ class Evaluation {
     std::map<int, double> begin_s;  // by file; touches stand in the order of time
     const bool assumes = (effect.needs & kMayBeAssumed & ~t.known) != 0;
     for (std::size_t p = 0; p < effect.parameters.size(); ++p)
-      if (effect.parameters[p].sought == Sought::load_setup) load_setup_ = static_cast<int>(p);
+      if (effect.parameters[p].sought == Sought::load_setup || effect.parameters[p].sought == Sought::warm_setup)
+        one_setup_ = static_cast<int>(p);
     for (const int i : rows) {
       const TouchScene scene = scene_for(effect, t.touches[i]);
       if (assumes) logged_.push_back(scene);
       scenes_.push_back(with_surrogates(scene, t));
-      if (load_setup_ >= 0) unweighed_.push_back(scenes_.back()), unweighed_.back().load_kg = kNobodyWeighed_kg;
+      if (one_setup_ >= 0) {
+        assumed_.push_back(with_part(scene, kNobodyWeighed_kg, kNobodyNoted_C));
+        plain_.push_back(with_part(scene, 0, kReferenceTemperature_C));
+      }
       start_s_.push_back(begin_s.try_emplace(t.touches[i].file, scenes_.back().time_s).first->second);
     }
   }
 
   Vector column(const std::vector<double>& theta, RunChange change, const std::vector<double>& draws,
                 int visit = -1) const {
-    return column(in_one_setup(theta) ? unweighed_ : scenes_, theta, change, draws, visit);
+    return column(in_one_setup(theta) ? assumed_ : scenes_, theta, change, draws, visit);
   }
 
   /// Whether it does anything only by what nobody logged.
   bool is_assumed(const std::vector<double>& theta, RunChange change) const {
-    return in_one_setup(theta) ||
-        (!logged_.empty() && column(logged_, theta, change, {}, -1).cwiseAbs().maxCoeff() < kNothing_um);
+    const std::vector<TouchScene>& without = in_one_setup(theta) ? plain_ : logged_;
+    return !without.empty() && column(without, theta, change, {}, -1).cwiseAbs().maxCoeff() < kNothing_um;
   }
 
   static constexpr double kNothing_um = 1e-6;
@@ -101,8 +104,13 @@ class Evaluation {
   }
 
  private:
-  /// Whether a load is meant that nobody weighed: of one placement, where no load or one for all was logged.
-  bool in_one_setup(const std::vector<double>& theta) const { return load_setup_ >= 0 && theta[load_setup_] != 0; }
+  /// Whether a load or a warmth of one placement is meant, of which nothing or one for all was logged.
+  bool in_one_setup(const std::vector<double>& theta) const { return one_setup_ >= 0 && theta[one_setup_] != 0; }
+
+  static TouchScene with_part(TouchScene scene, double load_kg, double part_C) {
+    scene.load_kg = load_kg, scene.temperature.part = part_C;
+    return scene;
+  }
 
   Vector column(const std::vector<TouchScene>& scenes, const std::vector<double>& theta, RunChange change,
                 const std::vector<double>& draws, int visit) const {
@@ -127,10 +135,10 @@ class Evaluation {
 
   const Effect& effect_;
   std::vector<TouchScene> scenes_;
-  std::vector<TouchScene> logged_;     ///< without surrogates, if the effect has any
-  std::vector<TouchScene> unweighed_;  ///< of an effect that has `load_setup_`: with the load that is assumed
-  int load_setup_ = -1;                ///< the parameter that tells in which placement there is a load
-  std::vector<double> start_s_;        ///< of the file that each is of
+  std::vector<TouchScene> logged_;           ///< without surrogates, if the effect has any
+  std::vector<TouchScene> assumed_, plain_;  ///< with the load and warmth of one placement, and without
+  int one_setup_ = -1;                       ///< the parameter that tells in which placement
+  std::vector<double> start_s_;              ///< of the file that each is of
 };
 
 /// Every combination of the values tried, with what each stands for.

@@ -58,6 +58,11 @@ std::vector<double> setups(const RecordedTouches& t) {
   return list.size() > 2 ? std::vector<double>(list.begin(), list.end()) : std::vector<double>{0};
 }
 
+/// Likewise, where this was not logged, or once for all of them.
+std::vector<double> setups_without(Covariate logged, const RecordedTouches& t) {
+  return (t.varying & static_cast<unsigned>(logged)) != 0 ? std::vector<double>{0} : setups(t);
+}
+
 std::vector<double> codes(const EffectParameter& p) {
   std::vector<double> list;
   for (double v = p.low; v <= p.high; ++v) list.push_back(v);
@@ -171,9 +176,8 @@ ParameterGrid grid_of(const EffectParameter& p, const RecordedTouches& t, double
     case Sought::direction: return {.kind = ParameterGrid::Kind::direction};
     case Sought::stylus: return each_for_itself(ordinals(t.styli.size()));
     case Sought::setup: return each_for_itself(setups(t));
-    case Sought::load_setup:
-      return each_for_itself((t.varying & static_cast<unsigned>(Covariate::load)) == 0 ? setups(t)
-                                                                                       : std::vector<double>{0});
+    case Sought::load_setup: return each_for_itself(setups_without(Covariate::load, t));
+    case Sought::warm_setup: return each_for_itself(setups_without(Covariate::part_temperature, t));
     case Sought::tip: return each_for_itself(ordinals(t.tips > int(t.styli.size()) ? std::size_t(t.tips) : 0));
     case Sought::not_at_all: break;
   }

@@ -32,7 +32,7 @@ constexpr EffectParameter kLoadBendingParameters[] = {
      .help =
          "sag of the middle of the x travel (y, where the bridge or the table moves along it) below its ends, under 500 kg",
      .typical = 1.5,
-     .low = -100,
+     .low = 0,
      .high = 100,
      .linear = true},
     {.name = "mass_kg",

@@ -6,7 +6,8 @@
 // has a and T. The first term vanishes at 20 degrees C and is proportional to T - 20; the second is
 // a constant scale. c0 is the origin of the part's frame; it stands still where the part is held there, and moves by s
 // for each kelvin where it is held elsewhere. Without any compensation the whole
-// coefficient is the error. Standard uncertainty of a length, with DT = T - 20:
+// coefficient is the error. A part may be warm in one placement only (`setup`), as one that comes from another room; a
+// diagnosis seeks that where the temperature of the part was not logged. Standard uncertainty of a length, with DT = T - 20:
 //   u(L)/L = sqrt( (DT u_a)^2 + (a u_T)^2 )
 // Sizes: 500 mm steel at 1 K uncompensated 5.75 um; 10 % of 11.5 ppm/K at 5 K 5.8 um/m; a sensor
 // that is off by 0.3 K 3.5 um/m.
@@ -41,9 +42,15 @@ constexpr EffectParameter kPartExpansionParameters[] = {
         "shift of the origin along the part's x for each kelvin above 20 degrees C, if it is held elsewhere"),
     shift_parameter("shift_y_um_per_K", "um/K", "the same along y"),
     shift_parameter("shift_z_um_per_K", "um/K", "the same along z"),
+    {.name = "setup",
+     .unit = "code",
+     .help = "in which placement the part was so warm; 0: in every one",
+     .high = 1e6,
+     .sought = Sought::warm_setup},
 };
 
 Vec3 part_expansion(const TouchScene& scene, const double* theta, const double*) {
+  if (!placed_in(scene, theta[7])) return {};
   const double above_K = scene.temperature.part - kReferenceTemperature_C;
   return isotropic_growth(scene, kPpm * (theta[0] * above_K + theta[2] * theta[1])) +
       origin_shift(scene, theta[3], above_K * Vec3{theta[4], theta[5], theta[6]});

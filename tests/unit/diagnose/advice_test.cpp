@@ -64,6 +64,24 @@ TEST_CASE("what was logged and is the same throughout comes last") {
   CHECK(p.says().ends_with("first of all, log accel_mm_s2, and let it and speed_mm_s vary."));
 }
 
+TEST_CASE("what tells more comes before a run that hardly tells two names apart") {
+  LeavesMore p;
+  p.find({"probe.tip_radius", "probe.trigger_delay"});
+  p.result.findings.front().set = {0, 1};
+  Diagnosis told;
+  told.effects.push_back({{"probe.tip_radius", "probe.trigger_delay"}, 1, {}, {}});
+  CHECK(otherwise(p.c, p.result, told).find("No other run of these touches would tell them apart") !=
+        std::string::npos);
+  NextMeasurement& next = told.next_measurement.emplace_back();
+  next.separates = told.effects.front().members;
+  next.expected_probability = 0.55;
+  CHECK(otherwise(p.c, p.result, told)
+            .find("only a little better than guessing. Do first what tells more: probe.tip_radius: ") !=
+        std::string::npos);
+  next.expected_probability = 0.9;
+  CHECK(otherwise(p.c, p.result, told).find("guessing") == std::string::npos);
+}
+
 TEST_CASE("a calibrated feature that strays may have a wrong figure in its certificate") {
   LeavesMore p;
   p.find_pattern_over(Factor::feature);

@@ -47,6 +47,16 @@ TEST_CASE("part expansion: a wrong coefficient vanishes at 20 degrees, a wrong s
   CHECK(reading_um(kPartExpansion, at_20, {{"temperature_error_K", 0.3}}) > 0);
 }
 
+TEST_CASE("part expansion: a part may be warm in one placement only") {
+  TouchScene end = touch_on_part({1000, 0, 0}, {1, 0, 0});
+  end.setup = 2;
+  const auto warm_in = [&](double setup) {
+    return reading_um(kPartExpansion, end, {{"temperature_error_K", 0.3}, {"setup", setup}});
+  };
+  CHECK(warm_in(2) == doctest::Approx(3.45));
+  CHECK(warm_in(1) == 0);
+}
+
 TEST_CASE("part expansion: isotropic from the part's origin, in the part's frame") {
   // The part is turned by 90 degrees about z: its x is the machine's y.
   TouchScene scene = touch({0, 1, 0});
