@@ -127,8 +127,6 @@ enum class Sought {
   stylus,         ///< the ordinals of the styli, 0 for all
   tip,            ///< the ordinals of the tips, a stylus in one orientation each; 0 for all
   setup,          ///< the placements of the part, 0 for all
-  load_setup,     ///< likewise, where the load of each was not logged
-  warm_setup,     ///< likewise, where the temperature of the part was not logged
 };
 
 /// Where a parameter counts: with `choice` at `word`, or at any other of its words (`not_at`); no choice: everywhere.
@@ -153,6 +151,8 @@ struct EffectParameter {
   OnlyWith only_with = {};
   Sought sought = Sought::not_at_all;
   std::span<const double> tried = {};
+  /// covariates: it is sought only where they were not logged, or are the same throughout; 0: always
+  unsigned unless_logged = 0;
   /// Whether it is a choice or an ordinal: a whole number, and certain.
   constexpr bool is_code() const { return unit == "code"; }
 };

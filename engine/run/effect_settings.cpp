@@ -144,7 +144,7 @@ double begins_at_s(const EffectSetting& setting) {
 
 int only_in_setup(const EffectSetting& setting) {
   for (const EffectParameter& p : find_effect(setting.name)->parameters) {
-    if (p.sought != Sought::setup && p.sought != Sought::load_setup && p.sought != Sought::warm_setup) continue;
+    if (p.sought != Sought::setup) continue;
     const auto given = setting.parameters.find(std::string(p.name));
     if (given != setting.parameters.end()) return static_cast<int>(given->second.value);
   }

@@ -70,7 +70,7 @@ class Evaluation {
     std::map<int, double> begin_s;  // by file; touches stand in the order of time
     const bool assumes = (effect.needs & kMayBeAssumed & ~t.known) != 0;
     for (std::size_t p = 0; p < effect.parameters.size(); ++p)
-      if (effect.parameters[p].sought == Sought::load_setup || effect.parameters[p].sought == Sought::warm_setup)
+      if (effect.parameters[p].sought == Sought::setup && effect.parameters[p].unless_logged)
         one_setup_ = static_cast<int>(p);
     for (const int i : rows) {
       const TouchScene scene = scene_for(effect, t.touches[i]);

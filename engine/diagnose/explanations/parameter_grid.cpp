@@ -58,11 +58,6 @@ std::vector<double> setups(const RecordedTouches& t) {
   return list.size() > 2 ? std::vector<double>(list.begin(), list.end()) : std::vector<double>{0};
 }
 
-/// Likewise, where this was not logged, or once for all of them.
-std::vector<double> setups_without(Covariate logged, const RecordedTouches& t) {
-  return (t.varying & static_cast<unsigned>(logged)) != 0 ? std::vector<double>{0} : setups(t);
-}
-
 std::vector<double> codes(const EffectParameter& p) {
   std::vector<double> list;
   for (double v = p.low; v <= p.high; ++v) list.push_back(v);
@@ -158,7 +153,8 @@ std::vector<TriedValue> moments_between(const std::vector<double>& ends_s, std::
 }
 
 ParameterGrid grid_of(const EffectParameter& p, const RecordedTouches& t, double least_period_um) {
-  switch (p.sought) {
+  const bool needless = (p.unless_logged & t.varying) != 0;
+  switch (needless ? Sought::not_at_all : p.sought) {
     case Sought::listed: return each_for_itself(listed(p));
     case Sought::signal_period: {
       std::vector<double> periods_um = listed(p);
@@ -176,8 +172,6 @@ ParameterGrid grid_of(const EffectParameter& p, const RecordedTouches& t, double
     case Sought::direction: return {.kind = ParameterGrid::Kind::direction};
     case Sought::stylus: return each_for_itself(ordinals(t.styli.size()));
     case Sought::setup: return each_for_itself(setups(t));
-    case Sought::load_setup: return each_for_itself(setups_without(Covariate::load, t));
-    case Sought::warm_setup: return each_for_itself(setups_without(Covariate::part_temperature, t));
     case Sought::tip: return each_for_itself(ordinals(t.tips > int(t.styli.size()) ? std::size_t(t.tips) : 0));
     case Sought::not_at_all: break;
   }

@@ -54,7 +54,8 @@ constexpr EffectParameter kLoadBendingParameters[] = {
      .unit = "code",
      .help = "in which placement of the part the load is on the table; 0: in every one",
      .high = 1e6,
-     .sought = Sought::load_setup},
+     .sought = Sought::setup,
+     .unless_logged = 0u | Covariate::load},
 };
 
 Vec3 load_bending(const TouchScene& scene, const double* theta, const double*) {

@@ -46,7 +46,8 @@ constexpr EffectParameter kPartExpansionParameters[] = {
      .unit = "code",
      .help = "in which placement the part was so warm; 0: in every one",
      .high = 1e6,
-     .sought = Sought::warm_setup},
+     .sought = Sought::setup,
+     .unless_logged = 0u | Covariate::part_temperature},
 };
 
 Vec3 part_expansion(const TouchScene& scene, const double* theta, const double*) {
