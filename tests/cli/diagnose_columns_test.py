@@ -364,12 +364,8 @@ class Columns(harness.Case):
 
     def balls_on_the_table(self, *planted, **parts):
         """Nine balls all over the table in three placements, the second of a part that differs from the others."""
-        around = ((0, 0, 1), (1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0))
-        balls = [(x, y, z) for x, z in ((300, -500), (800, -350), (1300, -500)) for y in (250, 500, 750)]
-        program = self.write("balls.dmi", harness.LENGTH.split("D(R)=")[0] + "".join(
-            f"F(B{k})=FEAT/SPHERE,OUTER,CART,{x},{y},{z},30\nMEAS/SPHERE,F(B{k}),5\n"
-            + "".join(f"PTMEAS/CART,{x + 15 * i},{y + 15 * j},{z + 15 * l},{i},{j},{l}\n" for i, j, l in around) + "ENDMES\n"
-            for k, (x, y, z) in enumerate(balls)) + "ENDFIL\n")
+        centres = [(x, y, z) for x, z in ((300, -500), (800, -350), (1300, -500)) for y in (250, 500, 750)]
+        program = self.write("balls.dmi", harness.balls(centres, ((0, 0, 1), (1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0))))
         for setup in (1, 2, 3):
             part = self.write("part.json", json.dumps({"schema": "abbe.workpiece/1", "name": "balls", **parts["other" if setup == 2 else "usual"]}))
             yield self.record("--workpiece", part, "--setup", setup, *planted, name=f"{setup}.csv", program=program)

@@ -189,11 +189,8 @@ class DiagnoseRuns(harness.Case):
         """Sixteen balls all over the volume: what the first recording left uncertain is far less than what two machines differ by."""
         points = [(0, 0, 1)] + [(math.cos(e) * math.cos(a), math.cos(e) * math.sin(a), math.sin(e))
                                 for e, first in ((math.pi / 4, 0), (math.pi / 18, math.pi / 4)) for a in (first + k * math.pi / 2 for k in range(4))]
-        balls = [(x, y, z) for z in (-600, -350) for y in (250, 750) for x in (250, 550, 850, 1150)]
-        program = self.write("balls.dmi", harness.LENGTH.split("D(R)=")[0] + "".join(
-            f"F(B{k})=FEAT/SPHERE,OUTER,CART,{x},{y},{z},30\nMEAS/SPHERE,F(B{k}),9\n"
-            + "".join(f"PTMEAS/CART,{x + 15 * i:.6f},{y + 15 * j:.6f},{z + 15 * l:.6f},{i:.9f},{j:.9f},{l:.9f}\n" for i, j, l in points) + "ENDMES\n"
-            for k, (x, y, z) in enumerate(balls)) + "ENDFIL\n")
+        centres = [(x, y, z) for z in (-600, -350) for y in (250, 750) for x in (250, 550, 850, 1150)]
+        program = self.write("balls.dmi", harness.balls(centres, points))
         for name, seed, run in (("first.csv", 1, 1), ("same.csv", 1, 2), ("other.csv", 2, 2)):
             self.abbe("record", program, "--machine", MACHINE, "--seed", seed, "--run", run, "-o", name)
         self.abbe("diagnose", "first.csv", "--machine", MACHINE, "--model-out", "known.json")
@@ -225,7 +222,7 @@ class DiagnoseRuns(harness.Case):
 
     def test_what_is_new_in_a_run_is_named_as_new(self):
         """A step of the indexing head between the runs would fit this well too, if effects were the same in all runs."""
-        recordings = self.record(1, "--seed", 2), self.record(2, "--seed", 2, "--with", "machine.squareness:squareness_urad=30,which=cwy")
+        recordings = self.record(1, whole=True), self.record(2, "--with", "machine.squareness:squareness_urad=30,which=cwy", whole=True)
         said = self.diagnosis(*recordings, "--model-out", "now.json")
         self.assertEqual([(e["members"], e["new_in_run"]) for e in said["effects"]], [(["machine.squareness"], [2])])
         low, high = said["effects"][0]["parameters"]["squareness_urad"]["interval95"]

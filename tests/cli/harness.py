@@ -50,6 +50,15 @@ def sphere(orientations=5, points=FROM_ALL_SIDES):
     return re.sub(r"T\(C_\d(?P<of>\d)\).*\nOUTPUT.*\n", kept, text)
 
 
+def balls(centres, directions):
+    """A program that touches balls of 30 mm, each from these directions, with the stylus of LENGTH."""
+    touches = lambda centre: "".join("PTMEAS/CART," + ",".join(f"{c + 15 * n:.6f}" for c, n in zip(centre, along)) + "".join(f",{n:.9f}" for n in along) + "\n"
+                                     for along in directions)
+    return LENGTH.split("D(R)=")[0] + "".join(
+        f"F(B{k})=FEAT/SPHERE,OUTER,CART,{','.join(map(str, centre))},30\nMEAS/SPHERE,F(B{k}),{len(directions)}\n{touches(centre)}ENDMES\n"
+        for k, centre in enumerate(centres)) + "ENDFIL\n"
+
+
 class Case(unittest.TestCase):
     abbe_path = ""
 
