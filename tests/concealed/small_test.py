@@ -99,6 +99,13 @@ class SmallRound(unittest.TestCase):
         self.assertEqual((said["verdict"], said["p_value"], said["effects"]), ("cannot_judge", None, []))
         self.assertIn("head_A_deg", next(e["missing"] for e in said["cannot_judge"] if e["effect"] == "head.sag"))
 
+    def test_a_load_that_was_not_logged_is_no_clamping(self):
+        """A missing covariate of the twenty-third final round: clamping in the one loaded placement had been sure."""
+        said = self.answer("final f67865d93b86229cafae51a4c3d65c86", "0311", Spec("missing", "part.load_bending", 10.0, "dropped"))
+        self.assertEqual(said["verdict"], "cannot_judge")
+        self.assertIn("part.load_bending", said["effects"][0]["members"])
+        self.assertTrue(all(e["probability"] <= 0.5 for e in said["effects"]), said["effects"])
+
     def test_what_was_not_logged_cannot_be_judged(self):
         self.assertIn("thermal.part_expansion", self.rows["0007"]["cannot_judge"])
 
