@@ -1,8 +1,9 @@
 """Unknown effects of the final round only: none of them resembles those of the development."""
 
 from portable import np
+from scene import BALL
 
-from .base import Change, Effect, unit
+from .base import Change, Effect
 
 UNKNOWN = {}
 
@@ -11,233 +12,235 @@ def unknown(name, draw, change, factors, designs="CD"):
     UNKNOWN[name] = Effect(name, draw, change, ("amplitude_um",), 20.0, tuple(factors), designs=designs)
 
 
-def some_of(rng, names, low, high):
-    """Between these shares of the names, in their order."""
-    count = int(rng.integers(max(1, round(low * len(names))), max(2, round(high * len(names)) + 1)))
-    return [names[k] for k in sorted(rng.permutation(len(names))[:count])]
+def centres(scene):
+    """Middle of the ball that is touched, in the part."""
+    return scene.part_point - BALL * scene.part_normal
 
 
-def draw_signs(scene, rng):
-    waves = rng.normal(size=(3, 2)) * np.array([1.0, 0.6])
-    i = int(rng.integers(3))
+def draw_arm(scene, rng):
+    q = scene.reading[:, "xyz".index(scene.machine.chain[0])]
+    goes, places, now = [], [], float(-rng.uniform(0, 100))
+    while now < scene.duration:
+        goes.append(now)
+        places.append(float(q.min() + rng.uniform(-0.3, 1.3) * np.ptp(q)))
+        now += float(rng.uniform(60, 260))
     return {
         "amplitude_um": 1.0,
-        "axis": "xyz"[i],
-        "length_mm": float(rng.uniform(0.7, 1.3) * np.ptp(scene.reading[:, i])),
-        "waves": (waves / np.sqrt(np.sum(waves**2, 1, keepdims=True) / 2)).tolist(),
-        "phases": rng.uniform(0, 2 * np.pi, (3, 2)).tolist(),
+        "goes_s": goes,
+        "places_mm": places,
+        "drives_s": float(rng.uniform(6, 15)),
+        "wide_mm": float(rng.uniform(0.25, 0.5) * np.ptp(q)),
+        "rail_mm": float(scene.target[:, 2].min() - rng.uniform(0.2, 1.0) * np.ptp(scene.target[:, 2])),
     }
 
 
-def change_signs(scene, p):
-    """The correction table of one axis was copied to the new controller as numbers without a sign: each minus has
-    been lost on the way. Where an error of the guide is positive the correction is as good as ever; where it is
-    negative the controller now adds to it instead of taking it off, and the error is there twice. Between the two
-    lies a kink, at another place for the position and for either straightness. Amplitude is the root of the mean
-    square of the table in each of its three columns."""
-    q = scene.reading[:, "xyz".index(p["axis"])]
-    waves, phases = np.asarray(p["waves"]), np.asarray(p["phases"])
-    table = np.zeros((scene.size, 3))
-    for m in range(2):
-        angle = 2 * np.pi * (m + 1) * q / p["length_mm"]
-        table += waves[:, m] * np.cos(angle[:, None] + phases[:, m])
-    return Change(tip=p["amplitude_um"] * 2 * np.minimum(table, 0))
+def change_arm(scene, p):
+    """The machine has a second arm on the same rail, with a program of its own for another part: it goes to a place,
+    works there for some minutes, and goes on to the next. Wherever it stands the rail sinks under its weight, in a
+    hollow. When ours is near it goes down with it, and leans over into the hollow, to one side or to the other, the
+    more the higher; when both work far from each other, all is right. Amplitude at the bottom of the hollow."""
+    i = "xyz".index(scene.machine.chain[0])
+    goes, places = np.asarray(p["goes_s"]), np.asarray(p["places_mm"])
+    k = np.searchsorted(goes, scene.time, side="right") - 1
+    before = places[np.maximum(k - 1, 0)]
+    arrived = np.minimum((scene.time - goes[k]) / p["drives_s"], 1)
+    away = (scene.reading[:, i] - before - (places[k] - before) * arrived) / p["wide_mm"]
+    hollow = np.exp(-(away**2))
+    moved = np.zeros((scene.size, 3))
+    moved[:, 2] = -hollow
+    moved[:, i] = -2 * away * hollow * (scene.target[:, 2] - p["rail_mm"]) / p["wide_mm"]
+    return Change(tip=p["amplitude_um"] * moved)
 
 
-def draw_handshake(scene, rng):
-    own = rng.normal(size=(len(scene.styli), 3))
-    return {
-        "amplitude_um": 1.0,
-        "own": (own / np.sqrt(np.mean(own**2))).tolist(),
-        "late": int(rng.integers(1, 4)),
-    }
-
-
-def change_handshake(scene, p):
-    """The software tells the controller which stylus is up now, and does not wait for an answer. The nominal vector
-    of the new tip comes at once, out of the angles of the head; but the few micrometres by which the qualification
-    has found this tip elsewhere come from a file, and for the first touches after each indexing those of the stylus
-    before are still in force. Then all is right, until the next indexing; which touches are wrong, and whither, hangs
-    on the pair of styli. Amplitude is the root of the mean square of a coordinate in the file."""
-    own, shifted, before, count = np.asarray(p["own"]), np.zeros((scene.size, 3)), None, 0
-    for k in range(scene.size):
-        if k and scene.visit[k] != scene.visit[k - 1]:
-            before, count = min(int(scene.sensor[k - 1]), len(own) - 1), 0
-        if before is not None and count < p["late"]:
-            shifted[k] = own[before] - own[min(int(scene.sensor[k]), len(own) - 1)]
-        count += 1
-    return Change(tip=p["amplitude_um"] * shifted)
-
-
-def draw_joystick(scene, rng):
-    stands = rng.uniform(0, 2 * np.pi)
-    blocks = [int(b) for b in np.unique(scene.block)]
-    return {
-        "amplitude_um": 1.0,
-        "blocks": some_of(rng, blocks, 0.25, 0.5),
-        "stands": [float(np.cos(stands)), float(np.sin(stands))],
-        "first_mm_per_s": float(rng.uniform(2, 4)),
-        "last_mm_per_s": float(rng.uniform(12, 20)),
-        "careful": float(rng.uniform(0.5, 0.8)),
-    }
-
-
-def change_joystick(scene, p):
-    """Now and then the operator does not trust the program, and takes a ball by hand with the joystick. He begins
-    gently and loses patience from touch to touch; on the side of the ball that is turned away from him, where he
-    cannot see the tip, he feels his way, and from above he is neither quick nor slow. The software takes off the
-    delay of the probe at the speed of the program, which his hand does not know: the quick touches are too deep, the
-    slow ones too shallow, and the log has the speed of the program for all. Amplitude for 8 mm/s too fast."""
-    ours, wrong = set(p["blocks"]), np.zeros(scene.size)
-    first = np.searchsorted(scene.block, scene.block)
-    count = np.bincount(scene.block)[scene.block]
-    impatient = (np.arange(scene.size) - first) / np.maximum(count - 1, 1)
-    hand = p["first_mm_per_s"] + (p["last_mm_per_s"] - p["first_mm_per_s"]) * impatient
-    hand *= 1 - p["careful"] * 0.5 * (1 - scene.normal[:, :2] @ np.asarray(p["stands"]))
-    by_hand = np.array([int(b) in ours for b in scene.block])
-    wrong[by_hand] = (hand - scene.speed)[by_hand] / 8
-    return Change(along=-p["amplitude_um"] * wrong)
-
-
-def draw_lacquer(scene, rng):
-    names = [str(f) for f in np.unique(scene.feature)]
-    soft = some_of(rng, names, 0.4, 1.0)
-    return {
-        "amplitude_um": 1.0,
-        "soft": {name: float(rng.uniform(0.4, 1)) for name in soft},
-        "wide_deg": float(rng.uniform(14, 24)),
-        "recovers_s": float(rng.uniform(1500, 8000)),
-    }
-
-
-def change_lacquer(scene, p):
-    """Against rust some of the balls have been dipped in a thick lacquer that stays soft. Each touch leaves a broad
-    dent in it, which fills again only slowly; a later touch near the same place, with whatever stylus, falls into
-    the dents that earlier ones have left there, and finds the ball too small. The first touch of a ball is right, and
-    where nobody has touched before all is right as well, however late. Amplitude is the depth of one fresh dent in
-    the softest lacquer."""
-    feature, deep = np.array(scene.feature), np.zeros(scene.size)
-    for name, softness in p["soft"].items():
-        mine = np.flatnonzero(feature == name)
-        n, when = scene.part_normal[mine], scene.time[mine]
-        angle = np.degrees(np.arccos(np.clip(n @ n.T, -1, 1)))
-        since = when[:, None] - when
-        dents = np.exp(-((angle / p["wide_deg"]) ** 2) - np.maximum(since, 0) / p["recovers_s"]) * (since > 0)
-        deep[mine] = softness * dents.sum(1)
-    return Change(along=-p["amplitude_um"] * deep)
-
-
-def draw_weather(scene, rng):
-    every = float(rng.uniform(300, 700))
-    return {
-        "amplitude_um": 1.0,
-        "every_s": every,
-        "first_s": float(-rng.uniform(0, 1) * every),
-        "periods_s": [float(rng.uniform(1500, 3000)), float(rng.uniform(4000, 9000))],
-        "phases": [float(v) for v in rng.uniform(0, 2 * np.pi, 2)],
-        "dead_mm": [float(v) for v in rng.uniform(0.05, 0.3, 3) * np.abs(scene.reading).max()],
-    }
-
-
-def change_weather(scene, p):
-    """The machine has lasers for scales, and the length of their waves goes with the weather in the hall: all axes
-    grow and shrink together, in proportion to the way of the light from its source, dead path and all. The software
-    knows pressure and damp from a small station, which it asks only every few minutes. Just after that all is right,
-    then what the weather has done since adds up, this way or that, until it asks again and all leaps back. Amplitude
-    of a wave of the weather at the end of the longest path."""
-
-    def weather(t):
-        return sum(a * np.sin(2 * np.pi * t / s + f) for a, s, f in zip((0.7, 1.0), p["periods_s"], p["phases"]))
-
-    asked = p["first_s"] + p["every_s"] * np.floor((scene.time - p["first_s"]) / p["every_s"])
-    path = np.abs(scene.reading) + np.asarray(p["dead_mm"])
-    path *= np.array([scene.machine.direction[a] for a in "xyz"]) / path.max()
-    return Change(tip=p["amplitude_um"] * path * (weather(scene.time) - weather(asked))[:, None])
-
-
-def draw_magnetised(scene, rng):
-    names = [str(f) for f in np.unique(scene.feature)]
-    return {
-        "amplitude_um": 1.0,
-        "poles": {name: [float(v) for v in unit(rng)] for name in names},
-        "strength": {name: float(rng.uniform(0.2, 1)) for name in names},
-        "stiff": float(rng.uniform(0.03, 0.15)),
-    }
-
-
-def change_magnetised(scene, p):
-    """The steel balls have been gripped on a magnetic chuck when they were ground, and nobody has demagnetised them.
-    Each draws at the shank of the stylus, steel or the cobalt in hard metal, with the square of its field, that is
-    four times as much over its poles as at its equator, and each has its poles elsewhere. The stylus bends towards
-    the ball before it touches, most when it is long and comes from the side, and the touch is too early; straight
-    along the stylus it cannot give way. Amplitude over the pole of the strongest ball, at the softest stylus."""
-    poles = np.array([p["poles"][f] for f in scene.feature])
-    strength = np.array([p["strength"][f] for f in scene.feature])
-    pull = strength**2 * (1 + 3 * np.sum(poles * scene.part_normal, 1) ** 2) / 4
-    bends = scene.length**3 / (scene.shaft**4 * scene.young)
-    across = 1 - np.sum(scene.normal * scene.shank, 1) ** 2
-    return Change(along=p["amplitude_um"] * pull * (across + p["stiff"]) * bends / bends.max())
-
-
-def draw_chip(scene, rng):
+def draw_ridge(scene, rng):
     i = int(rng.integers(2))
     q = scene.reading[:, i]
+    side = rng.uniform(0, 2 * np.pi)
     return {
         "amplitude_um": 1.0,
         "axis": "xy"[i],
-        "chip_mm": float(q.min() + rng.uniform(0.35, 0.65) * np.ptp(q)),
-        "half_mm": float(rng.uniform(0.3, 0.45) * np.ptp(q)),
-        "pad_mm": float(rng.uniform(0.13, 0.22) * np.ptp(q)),
-        "rolls": float(rng.uniform(-0.6, 0.6)),
+        "low_mm": float(q.min() + rng.uniform(0.1, 0.4) * np.ptp(q)),
+        "high_mm": float(q.max() - rng.uniform(0.1, 0.4) * np.ptp(q)),
+        "heaps_mm": float(rng.uniform(0.15, 0.4) * np.ptp(q)),
+        "wide_mm": float(rng.uniform(0.06, 0.14) * np.ptp(q)),
+        "lifts": [float(0.6 * np.cos(side)), float(0.6 * np.sin(side))],
     }
 
 
-def change_chip(scene, p):
-    """A chip has been rolled into one of the rails, and the carriage runs on two pads, one before and one behind.
-    When the front pad climbs on the chip the carriage nods back, half the chip rises at its middle, and it rolls a
-    little to the other rail; in between, with the chip under its belly, all is right; then the rear pad climbs on it,
-    and the carriage nods forward. What is far below or above the rail goes to and fro the more. Amplitude is the
-    height of the chip, as the long pads feel it."""
-    i = "xy".index(p["axis"])
-    away = scene.reading[:, i] - p["chip_mm"]
-    front = np.exp(-(((away + p["half_mm"]) / p["pad_mm"]) ** 2))
-    rear = np.exp(-(((away - p["half_mm"]) / p["pad_mm"]) ** 2))
-    move, turn = np.zeros((scene.size, 3)), np.zeros((scene.size, 3))
-    move[:, 2] = (front + rear) / 2
-    nod = (front - rear) / (2 * p["half_mm"]) * 1e3
-    turn[:, 1 - i] = nod if i == 1 else -nod
-    turn[:, i] = p["rolls"] * (front + rear) / (2 * p["half_mm"]) * 1e3
-    return Change(carriages={p["axis"]: (p["amplitude_um"] * move, p["amplitude_um"] * turn)})
+def change_ridge(scene, p):
+    """Nobody has wiped the guide for weeks. The pads of the carriage plough the dirt before them to where they turn
+    round, and there it lies as a ridge, one at either end of what has been used today. Near a ridge the carriage is
+    lifted, and pushed aside; where it has to go farther than ever before it takes the ridge with it, which grows as
+    it does so. Between the ridges all is clean and right, also where one has been before. Amplitude is the lift on a
+    ridge that has grown as high as it can."""
+    q = scene.reading[:, "xyz".index(p["axis"])]
+    low, high, pushed, lift = p["low_mm"], p["high_mm"], [0.3, 0.3], np.zeros((scene.size, 2))
+    for k in range(scene.size):
+        pushed[0] += max(low - q[k], 0.0) / p["heaps_mm"]
+        pushed[1] += max(q[k] - high, 0.0) / p["heaps_mm"]
+        low, high = min(low, q[k]), max(high, q[k])
+        away = np.array([q[k] - low, high - q[k]]) / p["wide_mm"]
+        lift[k] = (1 - np.exp(-np.array(pushed))) * np.exp(-(away**2))
+    moved = np.column_stack([(lift[:, :1] - lift[:, 1:]) * np.asarray(p["lifts"]), lift.sum(1)])
+    return Change(tip=p["amplitude_um"] * moved)
 
 
-def draw_collet(scene, rng):
-    warm = scene.temperature["z"]
+def draw_plated(scene, rng):
     return {
         "amplitude_um": 1.0,
-        "opens_at_C": float(warm.min() + rng.uniform(0.1, 0.6) * np.ptp(warm)),
-        "slit_deg": float(rng.uniform(0, 360)),
-        "oval": float(rng.uniform(0.2, 0.8)),
+        "up": float(rng.uniform(0.1, 0.6)),
+        "throws": float(rng.uniform(1.0, 2.5)),
+        "inside": float(rng.uniform(0.05, 0.4)),
     }
 
 
-def change_collet(scene, p):
-    """The styli are held in a collet of aluminium, which grows more than their shanks. In the cool it grips; above a
-    certain temperature it opens, and lets the stylus nod in it, more with every kelvin, and more along its slit than
-    across. A touch from the side must first push the tip to the end of this play before the probe feels anything, and
-    is too deep, in proportion to the length of the stylus; one along the stylus is right, and so is all that was
-    measured in the cool, the qualification as well. Amplitude for 1 K too warm, at the longest, along the slit."""
-    play = np.maximum(scene.temperature["z"] - p["opens_at_C"], 0) * scene.length / max(s.length for s in scene.first_styli)
-    n = np.einsum("nji,nj->ni", scene.head, scene.normal)[:, :2]
-    slit = np.radians(p["slit_deg"])
-    along, across = n @ np.array([np.cos(slit), np.sin(slit)]), n @ np.array([-np.sin(slit), np.cos(slit)])
-    return Change(along=-p["amplitude_um"] * play * np.sqrt(along**2 + (p["oval"] * across) ** 2))
+def change_plated(scene, p):
+    """The part has been chromed after it had got its certificate, balls and all, in a bath with the anodes round about.
+    The current prefers what stands out: the outer balls have got more than the inner ones, which stood in their
+    shade, and each of them most on the side that looks outwards and up, next to nothing on the side that looks in.
+    Amplitude is the thickest place of the outermost ball."""
+    middle = np.mean([centres(scene).min(0), centres(scene).max(0)], axis=0)
+    out = centres(scene) - middle
+    out[:, 2] = 0
+    far = np.linalg.norm(out, axis=1)
+    anode = out / far.max() + np.array([0, 0, p["up"]])
+    anode /= np.linalg.norm(anode, axis=1, keepdims=True)
+    faces = ((1 + np.sum(anode * scene.part_normal, 1)) / 2) ** p["throws"]
+    return Change(along=p["amplitude_um"] * faces * (p["inside"] + (1 - p["inside"]) * (far / far.max()) ** 2))
 
 
-unknown("lost_signs", draw_signs, change_signs, ["position", "feature"])
-unknown("late_handshake", draw_handshake, change_handshake, ["time", "sensor", "head"], "D")
-unknown("borrowed_joystick", draw_joystick, change_joystick, ["time", "direction", "feature", "speed"])
-unknown("soft_lacquer", draw_lacquer, change_lacquer, ["feature", "direction", "time"])
-unknown("rare_weather", draw_weather, change_weather, ["time", "position"])
-unknown("magnetised_balls", draw_magnetised, change_magnetised, ["feature", "direction", "sensor", "head"])
-unknown("straddled_chip", draw_chip, change_chip, ["position", "feature"])
-unknown("warm_collet", draw_collet, change_collet, ["temperature", "direction", "sensor", "head"], "D")
+def draw_polar(scene, rng):
+    size = float(np.abs(scene.part_point[:, :2]).max())
+    return {
+        "amplitude_um": 1.0,
+        "pole_mm": [float(v) for v in rng.uniform(-0.5, 0.5, 2) * size],
+        "unit_rad": float(rng.uniform(0.8, 1.2) * 1e-4),
+        "from_rad": float(rng.uniform(0, 2 * np.pi)),
+    }
+
+
+def change_polar(scene, p):
+    """The certificate has been printed in polar coordinates, about a bore of the part: the radius with all digits, as
+    it is a length, but the angle rounded as angles are on drawings. The operator has typed in what he read. Each ball
+    is off across its ray, to one side or to the other as the rounding fell, and may be so by the more the farther it
+    is from the bore; along the ray and in height it is right. Amplitude of half a unit at the farthest ball."""
+    ray = centres(scene)[:, :2] - np.asarray(p["pole_mm"])
+    far = np.linalg.norm(ray, axis=1)
+    angle = np.mod(np.arctan2(ray[:, 1], ray[:, 0]) - p["from_rad"], 2 * np.pi) / p["unit_rad"]
+    lost = 2 * (angle - np.round(angle)) * far / far.max()
+    across = (ray[:, 0] * scene.part_normal[:, 1] - ray[:, 1] * scene.part_normal[:, 0]) / far
+    return Change(along=p["amplitude_um"] * lost * across)
+
+
+def draw_cracked(scene, rng):
+    out = np.abs(scene.reading[:, 2])
+    towards = rng.uniform(0, 2 * np.pi)
+    return {
+        "amplitude_um": 1.0,
+        "towards": [float(np.cos(towards)), float(np.sin(towards)), 0.0],
+        "guided_mm": float(out.min() - rng.uniform(0.1, 0.4) * np.ptp(out)),
+        "fully_mm": float(out.max() + rng.uniform(-0.2, 0.3) * np.ptp(out)),
+        "above_mm": float(rng.uniform(50, 250)),
+    }
+
+
+def change_cracked(scene, p):
+    """The ram is glued of plates of ceramic, and above its flange the glue has cracked on one face. A touch that pushes
+    the tip away from this face shuts the crack, and nothing yields; one that pushes the other way opens it, and the
+    ram gives way until the probe has triggered, with the square of the lever that the touch has about the face. As
+    long as the ram is drawn in, its bearings hold it together; the farther it is out, the more it is left to
+    itself. Amplitude at the longest lever, with the ram out."""
+    free = (np.abs(scene.reading[:, 2]) - p["guided_mm"]) / (p["fully_mm"] - p["guided_mm"])
+    hinge = np.cross(np.asarray(p["towards"]), [0, 0, 1.0])
+    lever = scene.tip - np.array([0, 0, p["above_mm"]])
+    opens = np.maximum(np.cross(lever, scene.normal) @ hinge, 0) / np.linalg.norm(lever, axis=1).max()
+    return Change(along=-p["amplitude_um"] * np.clip(free, 0, 1) * opens**2)
+
+
+def draw_remembering(scene, rng):
+    return {
+        "amplitude_um": 1.0,
+        "creeps_s": float(rng.uniform(60, 300)),
+        "power": float(rng.uniform(2.0, 3.0)),
+    }
+
+
+def change_remembering(scene, p):
+    """Between head and stylus is a bar of cheap plastic, which creeps. Lying, it goes on sinking for minutes after it
+    has sprung down at once; and when the head is turned it is still bent to where it was down before, which may now be
+    a side or up, and forgets it as slowly. The styli were qualified at their leisure, with the bar at rest in
+    each orientation. Another bar that is fetched from the rack has stood upright, and is straight. Amplitude is the
+    whole creep of the longest bar, when it lies."""
+    down = -scene.head[:, 2, :] * np.array([1.0, 1.0, 0.0])
+    bent, moved, bar = np.zeros(3), np.zeros((scene.size, 3)), None
+    for k in range(scene.size):
+        if scene.length[k] != bar:
+            bent, bar = np.zeros(3), scene.length[k]
+        since = scene.time[k] - scene.time[k - 1] if k else 20.0
+        bent = down[k] + (bent - down[k]) * np.exp(-since / p["creeps_s"])
+        moved[k] = scene.head[k] @ (bent - down[k])
+    longest = max(s.length for s in scene.first_styli)
+    return Change(tip=-p["amplitude_um"] * moved * ((scene.length / longest) ** p["power"])[:, None])
+
+
+def draw_coolant(scene, rng):
+    names = [str(f) for f in np.unique(scene.feature)]
+    wet = rng.permutation(len(names))[: int(rng.integers(len(names) // 2, len(names) + 1))]
+    return {
+        "amplitude_um": 1.0,
+        "wet": {names[k]: float(rng.uniform(0.4, 1)) for k in sorted(wet)},
+        "above": float(rng.uniform(0.1, 0.4)),
+    }
+
+
+def change_coolant(scene, p):
+    """The part comes straight from the grinding machine, and its balls drip with coolant as thick as syrup. Before tip
+    and ball meet the coolant between them must be squeezed out, and it resists, with the speed and with the square
+    of the radius that the gap has: the probe triggers on the liquid alone, early, a fast large tip more than a slow
+    small one. At the underside of a ball, wherever this is as the part lies now, the coolant hangs thick, from above
+    it has drained away; some balls are wetter than others. Amplitude at 8 mm/s from below on the wettest ball, for
+    the largest tip."""
+    wet = np.array([p["wet"].get(f, 0.0) for f in scene.feature])
+    gap = 1 / (1 / scene.tip_radius + 1 / BALL)
+    hangs = p["above"] + (1 - p["above"]) * (1 - scene.normal[:, 2]) / 2
+    return Change(along=p["amplitude_um"] * wet * hangs * scene.speed / 8 * (gap / gap.max()) ** 2)
+
+
+def draw_clamps(scene, rng):
+    i = int(rng.integers(3))
+    q = scene.reading[:, i]
+    holds = float(rng.uniform(0.4, 1.6))
+    return {
+        "amplitude_um": 1.0,
+        "axis": "xyz"[i],
+        "holds_K": holds,
+        "first_K": float(rng.uniform(-1, 1) * holds),
+        "fixed_mm": float(q.min() + rng.uniform(0, 1) * np.ptp(q)),
+    }
+
+
+def change_clamps(scene, p):
+    """A scale is screwed down at one place, and should slide in all its other clamps, which somebody has tightened too
+    much. When it becomes warmer the clamps hold the scale to its short length, up to what friction can bear, and
+    then it slips after; when it becomes cooler again they hold it too long, and it slips only when friction is
+    overcome the other way. What the software takes off is the expansion of a free scale: what is left hangs on the way
+    that the temperature has come. Amplitude for 1 K held back, at the end that is farther from the screw."""
+    warm, away = scene.temperature[p["axis"]], scene.reading[:, "xyz".index(p["axis"])] - p["fixed_mm"]
+    held, state = np.zeros(scene.size), p["first_K"]
+    for k in range(scene.size):
+        state += warm[k] - warm[k - 1] if k else 0.0
+        state = min(max(state, -p["holds_K"]), p["holds_K"])
+        held[k] = state
+    moved = np.zeros((scene.size, 3))
+    moved[:, "xyz".index(p["axis"])] = -held * away / np.abs(away).max()
+    return Change(tip=p["amplitude_um"] * moved)
+
+
+unknown("second_arm", draw_arm, change_arm, ["time", "position"])
+unknown("ploughed_ridge", draw_ridge, change_ridge, ["position", "time", "feature"])
+unknown("plated_balls", draw_plated, change_plated, ["feature", "direction", "position"])
+unknown("polar_certificate", draw_polar, change_polar, ["feature", "position"])
+unknown("cracked_ram", draw_cracked, change_cracked, ["direction", "position", "head", "sensor"])
+unknown("remembering_bar", draw_remembering, change_remembering, ["head", "time", "sensor"], "D")
+unknown("squeezed_coolant", draw_coolant, change_coolant, ["speed", "feature", "direction", "sensor"], "D")
+unknown("sticking_clamps", draw_clamps, change_clamps, ["temperature", "time", "position"], "D")
