@@ -72,6 +72,11 @@ inline Mat3 rotation(const Vec3& axis, double angle_rad) {
           {a.x * a.y * k - a.z * s, c + a.y * a.y * k, a.z * a.y * k + a.x * s},
           {a.x * a.z * k + a.y * s, a.y * a.z * k - a.x * s, c + a.z * a.z * k}};
 }
+/// By how much a rotation turns, from 0 to pi.
+inline double turn_rad(const Mat3& R) {
+  const Vec3 twice_sine{R.cy.z - R.cz.y, R.cz.x - R.cx.z, R.cx.y - R.cy.x};
+  return std::atan2(norm(twice_sine), R.cx.x + R.cy.y + R.cz.z - 1);
+}
 
 /// The pose X_AB of frame B in frame A: p_A = R_AB p_B + p_AB.
 struct Rigid {

@@ -25,8 +25,9 @@ struct RecordingRow {
   std::optional<double> head_a_deg, head_b_deg;
   std::optional<int> qualification, visit;
   std::optional<double> time_s, speed_mm_s, accel_mm_s2;
-  std::optional<Vec3> travel;      ///< unit vector of the motion at the touch
-  bool travel_as_planned = false;  ///< from the program, for a part that stands on its targets; in no file
+  std::optional<Vec3> travel;  ///< unit vector of the motion at the touch
+  /// From the program, for a part that stands where it has it: target and normal; travel, for one on its targets. In no file.
+  bool target_as_planned = false, travel_as_planned = false;
   std::optional<double> temp_part_C, temp_x_C, temp_y_C, temp_z_C, temp_air_C, load_kg;
   std::optional<Vec3> reading_mm;  ///< raw scale readings
   /// Point of the surface and its normal in the part's own coordinates (engine/run/part_frame.hpp); from the

@@ -134,10 +134,7 @@ Back placement_of(const Rows& rows) {
   return middle_size(beyond(rows, far)) < left / 2 ? far : near;
 }
 
-double angle_deg(const Mat3& R) {
-  const Vec3 twice_sine{R.cy.z - R.cz.y, R.cz.x - R.cx.z, R.cx.y - R.cy.x};
-  return in_degrees(std::atan2(norm(twice_sine), R.cx.x + R.cy.y + R.cz.z - 1));
-}
+double angle_deg(const Mat3& R) { return in_degrees(turn_rad(R)); }
 
 /// Whether a tip explains it with the part where it should be, and the placement only with the part turned
 /// far: about the axis of a ring, which shortens all that is seen along its normals, and which no touch of a
@@ -195,6 +192,24 @@ std::map<int, Rows> aimed_at(const std::vector<RecordingRow>& rows) {
   return out;
 }
 
+/// The rows of a setup are carried back to their targets.
+void carry_to_targets(const Rigid& X, int setup, std::vector<RecordingRow>& rows) {
+  for (RecordingRow& row : rows) {
+    if (row.setup != setup) continue;
+    row.position_mm = X * row.position_mm;
+    if (row.travel && !row.travel_as_planned) row.travel = X.R * *row.travel;
+  }
+}
+
+/// Targets of a setup that only the program tells are carried to where the part stood: there the machine measured it.
+void carry_targets(const Rigid& X, int setup, std::vector<RecordingRow>& rows) {
+  for (RecordingRow& row : rows) {
+    if (row.setup != setup || !row.target_as_planned) continue;
+    row.target_mm = X * *row.target_mm, row.normal = X.R * *row.normal;
+    if (row.travel && row.travel_as_planned) row.travel = X.R * *row.travel;
+  }
+}
+
 }  // namespace
 
 Recording put_on_targets(const Recording& recorded, double most_out_mm, const std::string& file,
@@ -216,18 +231,25 @@ Recording put_on_targets(const Recording& recorded, double most_out_mm, const st
       if (std::abs(after[i]) < most) change = std::max(change, std::abs(after[i] - before[i]));
     if (change < kNoticeable_mm) continue;
     const Vec3 middle = extent_of(rows).first;
-    for (RecordingRow& row : out.rows) {
-      if (row.setup != setup) continue;
-      row.position_mm = X * row.position_mm;
-      if (row.travel && !row.travel_as_planned) row.travel = X.R * *row.travel;
-    }
-    for (const Aimed& a : rows) out.rows[a.row - recorded.rows.data()].position_mm += a.bend_mm(X) * a.normal();
-    messages.push_back(diagnostic(
-        Code::N0709,
-        fmt::format(
-            "{}: in setup {} the part stood {:.2f} mm beside its targets and turned by {:.3f} degrees; that is taken out",
-            file, setup, norm(inverse(X) * middle - middle), angle_deg(X.R)),
-        "errors of the machine are reckoned at the targets: give targets where the part stood if that is far"));
+    const bool planned =
+        std::all_of(touched.begin(), touched.end(), [](const RecordingRow* row) { return row->target_as_planned; });
+    const Rigid there = planned ? inverse(X) : Rigid{};
+    if (planned)
+      carry_targets(there, setup, out.rows);
+    else
+      carry_to_targets(X, setup, out.rows);
+    for (const Aimed& a : rows)
+      out.rows[a.row - recorded.rows.data()].position_mm += a.bend_mm(X) * (there.R * a.normal());
+    const std::string where = fmt::format(
+        "{}: in setup {} the part stood {:.2f} mm beside {} and turned by {:.3f} degrees; ", file, setup,
+        norm(inverse(X) * middle - middle), planned ? "where its program has it" : "its targets", angle_deg(X.R));
+    messages.push_back(
+        planned
+            ? diagnostic(Code::N0709, where + "its targets are carried there",
+                         "errors of the machine are reckoned where it was touched: nothing is to be done")
+            : diagnostic(
+                  Code::N0709, where + "that is taken out",
+                  "errors of the machine are reckoned at the targets: give targets where the part stood if that is far"));
   }
   return out;
 }

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "engine/base/letter_case.hpp"
+#include "engine/math/rigid_fit.hpp"
+#include "engine/math/units.hpp"
 #include "engine/run/part_frame.hpp"
 
 namespace abbe {
@@ -23,6 +25,26 @@ void carry(const Rigid& X_MD, RecordingRow& row) {
     if (*direction) *direction = X_MD.R * **direction;
 }
 
+/// A touch of the program for each of a row's feature and number.
+using Partners = std::map<std::pair<std::string, int>, std::size_t>;
+
+/// How the targets that a file gives are turned from those of the program, by setup. A turn of less changes no direction of
+/// travel that matters.
+std::map<int, Mat3> turns_in_file(const Recording& recording, const MachineRecord& nominal, const Partners& partner) {
+  constexpr double kLittle_deg = 1;
+  std::map<int, std::pair<std::vector<Vec3>, std::vector<Vec3>>> targets;  // of the program, of the file
+  for (const RecordingRow& row : recording.rows) {
+    const auto found = partner.find({upper(row.feature), row.touch});
+    if (found == partner.end() || !row.target_mm) continue;
+    targets[row.setup].first.push_back(*nominal.recording.rows[found->second].target_mm);
+    targets[row.setup].second.push_back(*row.target_mm);
+  }
+  std::map<int, Mat3> out;
+  for (const auto& [setup, of] : targets)
+    if (const auto X = rigid_fit(of.first, of.second); X && in_degrees(turn_rad(X->R)) > kLittle_deg) out[setup] = X->R;
+  return out;
+}
+
 }  // namespace
 
 bool lies_as_planned(const Recording& recording) {
@@ -31,7 +53,7 @@ bool lies_as_planned(const Recording& recording) {
 }
 
 void complete_from_program(Recording& recording, const MachineRecord& nominal, const std::string& file) {
-  std::map<std::pair<std::string, int>, std::size_t> partner;
+  Partners partner;
   for (std::size_t k = 0; k < nominal.recording.rows.size(); ++k)
     partner[{upper(nominal.recording.rows[k].feature), nominal.recording.rows[k].touch}] = k;
   for (const auto& line : nominal.recording.metadata) recording.metadata.push_back(line);
@@ -42,6 +64,8 @@ void complete_from_program(Recording& recording, const MachineRecord& nominal, c
   };
   for (std::size_t k = 0; k < nominal.aims.size(); ++k) frames.add(nominal.aims[k].X_MD, surface_of(k));
   const Rigid X_PM = inverse(frames.of_part(Rigid{}));
+  const std::map<int, Mat3> turned =
+      recording.in_part_frame ? std::map<int, Mat3>{} : turns_in_file(recording, nominal, partner);
   std::vector<std::string> lost;
   std::size_t paired = 0;
   for (RecordingRow& row : recording.rows) {
@@ -63,7 +87,9 @@ void complete_from_program(Recording& recording, const MachineRecord& nominal, c
     const auto fill = [&](auto member) {
       if (!(row.*member)) row.*member = from.*member;
     };
-    row.travel_as_planned = !row.travel;
+    if (const auto turn = turned.find(row.setup); row.target_mm && from.travel && turn != turned.end())
+      from.travel = turn->second * *from.travel;
+    row.target_as_planned = !row.target_mm && !row.normal, row.travel_as_planned = !row.travel;
     fill(&RecordingRow::target_mm), fill(&RecordingRow::normal), fill(&RecordingRow::sensor);
     fill(&RecordingRow::head_a_deg), fill(&RecordingRow::head_b_deg), fill(&RecordingRow::visit);
     fill(&RecordingRow::speed_mm_s), fill(&RecordingRow::accel_mm_s2), fill(&RecordingRow::travel);

@@ -75,6 +75,30 @@ TEST_CASE("a part that stood off its targets is carried back, and its errors sta
   }
 }
 
+TEST_CASE("targets that only the program tells are carried to where the part stood") {
+  const Rigid X{rotation({0, 0, 1}, kPi / 2), {120, 30, -80}};
+  Recording recorded = box(X);
+  for (RecordingRow& row : recorded.rows) {
+    row.travel = -*row.normal;
+    row.target_as_planned = row.travel_as_planned = true;
+  }
+  std::vector<Diagnostic> messages;
+  const Recording there = put_on_targets(recorded, kNoTip, "box", messages);
+  REQUIRE(messages.size() == 1);
+  CHECK(messages[0].code == Code::N0709);
+  CHECK(messages[0].message.find("turned by 90.000 degrees; its targets are carried there") != std::string::npos);
+  for (std::size_t i = 0; i < there.rows.size(); ++i) {
+    const RecordingRow &row = there.rows[i], &before = recorded.rows[i];
+    CHECK(norm(row.position_mm - before.position_mm) < 1e-9);  // the machine measured there
+    CHECK(norm(*row.normal - X.R * *before.normal) < 1e-5);
+    CHECK(norm(*row.travel + *row.normal) < 1e-12);
+    CHECK(std::abs(off_mm(row) - (i % 9 == 5 ? kError_mm : 0)) < kPlaced_mm);
+  }
+  recorded.rows[7].target_as_planned = false;  // the file has a target of its own: all lie where that does
+  CHECK(norm(put_on_targets(recorded, kNoTip, "box", messages).rows[0].position_mm - *recorded.rows[0].target_mm) <
+        0.01);
+}
+
 TEST_CASE("rows in micrometres turn no part, wherever it stood") {
   constexpr double kUmPerMm = 1000;
   constexpr double kManyPlaced_mm =

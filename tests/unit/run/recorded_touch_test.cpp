@@ -168,6 +168,32 @@ TEST_CASE("targets of a program are of the point and in the frame that the recor
   }
 }
 
+TEST_CASE("the travel of a program turns with targets that the file gives, and its targets are known to be planned") {
+  MachineRecord program;
+  Recording turned;
+  const Mat3 R = rotation({0, 0, 1}, kPi / 2);
+  for (int k = 0; k < 3; ++k) {
+    RecordingRow aimed;
+    aimed.feature = "FACE", aimed.touch = k + 1, aimed.normal = Vec3{0, 1, 0}, aimed.travel = Vec3{0, -1, 0};
+    aimed.target_mm = Vec3{700 + 20.0 * k, 402, k == 2 ? -550.0 : -500.0};
+    program.recording.rows.push_back(aimed);
+    program.aims.push_back({Rigid{}, 2.0});
+    aimed.target_mm = R * *aimed.target_mm, aimed.normal = R * *aimed.normal, aimed.travel.reset();
+    aimed.position_mm = *aimed.target_mm;
+    turned.rows.push_back(aimed);
+  }
+  Recording bare = turned;
+  complete_from_program(turned, program, "turned");
+  for (RecordingRow& row : bare.rows) row.target_mm.reset(), row.normal.reset();
+  complete_from_program(bare, program, "bare");
+  for (std::size_t k = 0; k < 3; ++k) {
+    CHECK(norm(*turned.rows[k].travel - Vec3{1, 0, 0}) < 1e-9);
+    CHECK_FALSE(turned.rows[k].target_as_planned);
+    CHECK(*bare.rows[k].travel == Vec3{0, -1, 0});
+    CHECK(bare.rows[k].target_as_planned);
+  }
+}
+
 TEST_CASE(
     "the head stands as its stylus says where no column tells it, and as nothing says where the stylus is assumed") {
   Machine machine = read_machine("coord3-mc16");
