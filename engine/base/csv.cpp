@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <set>
 
+#include "engine/base/numbers.hpp"
+
 namespace abbe {
 
 namespace {
@@ -74,6 +76,11 @@ void check_separator(const SourceFile& file, const std::vector<CsvField>& header
 }
 
 void check_header(const SourceFile& file, const std::vector<CsvField>& header, Sink& sink) {
+  for (const CsvField& field : header)
+    if (finite_number(field.text))
+      throw UserError(diagnostic_at(
+          file, field.span, Code::E0524, fmt::format("'{}' names no column: the header is missing", field.text),
+          "the first line names the columns, every other line is one row (docs/recording.md)"));
   std::set<std::string> seen;
   for (const CsvField& field : header)
     if (!seen.insert(field.text).second)
@@ -138,6 +145,8 @@ std::string csv_field(const std::string& text) {
 }
 
 std::string column_help(std::string_view written, const std::vector<std::string_view>& known) {
+  if (written.empty())
+    return "two commas stand together, or one at the end of the line: leave it out, there and in the rows";
   const std::string near = nearest_word(written, known);
   const std::string_view stem = written.substr(0, written.find_first_of("_ ([/"));
   if (near.empty() && std::find(known.begin(), known.end(), stem) != known.end())

@@ -277,6 +277,8 @@ class Diagnose(harness.Case):
                            "E0527": "feature,x,y,z\nA,0,0,0\n", "E0528": head + "A,1,0,0,,0,0,0,0,0,1\n", "E0529": head + "A,1,0,0,0,0,0,0,0,0,3\n",
                            "E0530": head + "A,one,0,0,0,0,0,0,0,0,1\n", "E0705": head + row}.items():
             self.refused(code, "diagnose", self.write("bad.csv", text), "--machine", MACHINE)
+        self.assertIn("the header is missing", self.refused("E0524", "diagnose", self.write("bad.csv", row + row), "--machine", MACHINE))
+        self.assertIn("or one at the end of the line", self.refused("E0526", "diagnose", self.write("bad.csv", "feature,touch,x,y,z,\nA,1,0,0,0,\n"), "--machine", MACHINE))
         with_unit = self.write("bad.csv", "feature,touch,x_mm,y,z\nA,1,0,0,0\n")
         self.assertIn("did you mean 'x'?", self.refused("E0526", "diagnose", with_unit, "--machine", MACHINE))
 
