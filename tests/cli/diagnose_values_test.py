@@ -79,6 +79,22 @@ class Values(harness.Case):
         self.assertRegex(said["unexplained"]["sentence"], r"LEN of \S*d1_L.dmi strays by itself, by (1[89]|2[01]) um")
         self.assertIn("Check reference", said["otherwise"])
 
+    def test_what_explains_one_characteristic_alone_may_be_its_reference(self):
+        """A bore that is 20 um too small: a form error of just that size would do it, and nobody knows its form."""
+        program = harness.ROOT / "examples/programs/prismatic_part.dmi"
+        self.abbe("record", program, "-o", "touches.csv", "--dmo", "bores.dmo", "--seed", 4)
+        text = (self.folder / "bores.dmo").read_text()
+        small = self.write("small.dmo", re.sub(r"(TA\(DIA1\) *= *TOL/DIAM, *)[0-9.]+", r"\g<1>29.98000", text))
+        said = self.diagnosis(small, "--program", program)
+        self.assertTrue(all(e["probability"] <= 0.5 for e in said["effects"]), said["effects"])
+        self.assertRegex(said["otherwise"], "Check reference,? .*DIA1")
+
+    def test_one_slip_among_repeats_is_told(self):
+        def slip(row):
+            return row | {"value": repr(float(row["value"]) + 0.01)} if "z1_" in row["program"] and row["run"] == "2" else row
+        said = self.diagnosis(self.changed(self.recorded(runs=3), slip))
+        self.assertRegex(said["otherwise"], r"LEN in run 2 is ([89]|1[012])(\.\d)? um beside its other runs, which agree: check what was written there")
+
     def test_all_characteristics_that_stray_are_told(self):
         """Both blocks stood on dirt where they stood upright, in three runs: neither strays by itself."""
         def dirty(row):

@@ -10,11 +10,16 @@
 #include <utility>
 
 #include "engine/diagnose/quantile.hpp"
+#include "engine/diagnose/words.hpp"
 #include "engine/math/units.hpp"
 
 namespace abbe::diagnose {
 
 namespace {
+
+using Value = std::tuple<int, int, int>;  ///< program, characteristic, occurrence
+
+Value value_of(const RecordedValue& v) { return {v.program, v.characteristic.value, v.occurrence}; }
 
 using RepeatedValues = std::vector<std::pair<Eigen::Index, Eigen::Index>>;  ///< rows of one value in two runs
 
@@ -62,11 +67,10 @@ void doubt_calibrations(const ValueCase& c, std::vector<Diagnostic>& messages) {
 
 void refuse_copied_values(const ValueCase& c) {
   constexpr double kNearlyAllOfRun = 0.9, kLogHardly = -14;
-  using Value = std::tuple<int, int, int>;  // program, characteristic, occurrence
   std::map<int, std::map<Value, Eigen::Index>> runs;
   for (std::size_t k = 0; k < c.ensemble.values.size(); ++k) {
     const RecordedValue& v = c.ensemble.values[k];
-    runs[c.recording->rows[k].run][{v.program, v.characteristic.value, v.occurrence}] = static_cast<Eigen::Index>(k);
+    runs[c.recording->rows[k].run][value_of(v)] = static_cast<Eigen::Index>(k);
   }
   for (auto later = runs.begin(); later != runs.end(); ++later)
     for (auto earlier = runs.begin(); earlier != later; ++earlier) {
@@ -106,6 +110,37 @@ std::string doubt_of_micrometres(const ValueCase& c) {
   if (doubted.empty()) return "";
   return fmt::format("Check the unit of {}: in micrometres it would be what a machine of the specification measures.",
                      fmt::join(doubted, " and of "));
+}
+
+std::string doubt_of_single_repeats(const ValueCase& c) {
+  constexpr std::size_t kLeastRepeats = 3;
+  constexpr double kFar = 8, kOfTheOthers = 5,
+                   kDigits = 3;  // what a repeat scatters, the range of the others, last digits
+  std::map<Value, std::vector<Eigen::Index>> repeats;
+  for (std::size_t k = 0; k < c.ensemble.values.size(); ++k)
+    repeats[value_of(c.ensemble.values[k])].push_back(static_cast<Eigen::Index>(k));
+  std::vector<std::string> doubted;
+  for (const auto& [value, rows] : repeats) {
+    if (rows.size() < kLeastRepeats) continue;
+    const Vector apart = c.ensemble.simulated.col(rows[0]) - c.ensemble.simulated.col(rows[1]);
+    const double scatter = std::sqrt((apart.array() - apart.mean()).square().mean() / 2);
+    for (const Eigen::Index k : rows) {
+      std::vector<double> others;
+      for (const Eigen::Index other : rows)
+        if (other != k) others.push_back(c.deviation(other));
+      const auto [least, most] = std::minmax_element(others.begin(), others.end());
+      const double range = *most - *least, beside = c.deviation(k) - median(others);
+      const auto at = static_cast<std::size_t>(k);
+      const double digit = c.recording->rows[at].last_digit / c.ensemble.values[at].reported();
+      if (std::abs(beside) < std::max({kFar * scatter, kOfTheOthers * range, kDigits * digit})) continue;
+      doubted.push_back(fmt::format("{} in run {} is {} {} beside its other runs", c.recording->rows[at].characteristic,
+                                    c.recording->rows[at].run, two_digits(std::abs(beside)),
+                                    c.ensemble.values[at].angle ? "urad" : "um"));
+    }
+  }
+  if (doubted.empty()) return "";
+  return fmt::format("{}, which agree: check what was written there, and measure it again.",
+                     fmt::join(doubted, ", and "));
 }
 
 bool holds_references_only(const ValueCase& c) {

@@ -19,6 +19,9 @@ void refuse_copied_values(const ValueCase&);
 /// measure: they may be in micrometres. A part may have such a form, so they are not refused. Empty: there are none.
 std::string doubt_of_micrometres(const ValueCase&);
 
+/// What to say of values that lie far from their repeats in other runs, which agree: a slip of one run. Empty: there are none.
+std::string doubt_of_single_repeats(const ValueCase&);
+
 /// Whether every value is, to its last digit, what it should be. Machines of the specification would not report that: the
 /// chance is the digit times the density of the values.
 bool holds_references_only(const ValueCase&);

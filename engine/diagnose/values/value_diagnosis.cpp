@@ -69,8 +69,8 @@ ValueCase specified_case(const ValueRecording& recording, const std::vector<Valu
 /// What sets the recording apart from machines in order.
 void tell_mismatch(const ValueCase& c, Diagnosis& out) {
   tell_explanation(c, Closer(c), out);
-  if (const std::string unit = doubt_of_micrometres(c); !unit.empty())
-    out.otherwise = unit + (out.otherwise.empty() ? "" : " ") + out.otherwise;
+  for (const std::string& slip : {doubt_of_single_repeats(c), doubt_of_micrometres(c)})
+    if (!slip.empty()) out.otherwise = slip + (out.otherwise.empty() ? "" : " ") + out.otherwise;
   const auto worst =
       std::max_element(out.values.begin(), out.values.end(),
                        [](const JudgedValue& a, const JudgedValue& b) { return std::abs(a.z) < std::abs(b.z); });

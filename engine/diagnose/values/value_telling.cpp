@@ -19,11 +19,19 @@
 
 namespace abbe::diagnose {
 
+namespace {
+
+Sizes found_sizes(const ValueCase& c, const Closer& closer, const Finding& f) {
+  const auto found = closer.sizes.find(f.variant);
+  return found != closer.sizes.end() ? found->second : sizes_of(closer.search, f.variant, c.deviation);
+}
+
+}  // namespace
+
 std::vector<DiagnosedParameter> parameters_of(const ValueCase& c, const Closer& closer, const Finding& f) {
   const Variant& b = closer.variant(f);
   const Effect& effect = *closer.explanation(f).effect;
-  const auto found = closer.sizes.find(f.variant);
-  const Sizes s = found != closer.sizes.end() ? found->second : sizes_of(closer.search, f.variant, c.deviation);
+  const Sizes s = found_sizes(c, closer, f);
   std::vector<DiagnosedParameter> out;
   for (std::size_t k = 0; k < b.columns.size(); ++k) {
     const EffectParameter& p = effect.parameters[b.columns[k].parameter];
@@ -87,6 +95,20 @@ std::vector<std::string> others_that_stray(const ValueCase& c, const std::string
   return out;
 }
 
+/// The characteristic of which a name explains the values and hardly any others, as what each would be without; "" where there
+/// is none.
+std::string only_one_explained(const ValueCase& c, const Closer& closer, const Finding& f) {
+  constexpr double kNearlyAll = 0.9;
+  const Vector does = (closer.variant(f).signature * found_sizes(c, closer, f).mean).array() /
+      c.judges.covariance.diagonal().array().sqrt();
+  const std::vector<std::string> labels = labels_of(c);
+  std::map<std::string, double> squares;
+  for (std::size_t k = 0; k < labels.size(); ++k) squares[labels[k]] += std::pow(does(static_cast<Eigen::Index>(k)), 2);
+  for (const auto& [label, of_it] : squares)
+    if (of_it > kNearlyAll * does.squaredNorm()) return label;
+  return "";
+}
+
 /// "A strays", "A and B stray"
 std::string stray_in_words(const std::vector<std::string>& labels) {
   return fmt::format("{} {}", fmt::join(labels, " and "), labels.size() == 1 ? "strays" : "stray");
@@ -107,10 +129,11 @@ void tell_name(const ValueCase& c, const Closer& closer, const Finding& f, doubl
   const unsigned untold = std::accumulate(f.set.begin(), f.set.end(), 0u,
                                           [&](unsigned missing, int k) { return missing | all.list[k].missing; });
   const bool only_untold = closer.explanation(f).missing != 0;
+  const std::string only = only_one_explained(c, closer, f);
   const std::string in_file =
       belief_in_first(all, f) < kCarried ? kNotCarried : carry(*c.machine, effect, e.parameters, out);
   e.probability = believed(f.probability,
-                           adequacy < kInadequate || !all_plausible(e.parameters) || only_untold ||
+                           adequacy < kInadequate || !all_plausible(e.parameters) || only_untold || !only.empty() ||
                                !predicts_values_better(out.improvement));
   e.sentence = explanation_sentence(titles, e.parameters, "a file of values", {}, e.probability < kTold);
   if (untold != 0) {
@@ -118,6 +141,13 @@ void tell_name(const ValueCase& c, const Closer& closer, const Finding& f, doubl
     e.sentence += fmt::format(" Whether it is that depends on {}: a workpiece file tells them (--workpiece).", columns);
     out.otherwise =
         fmt::format("Tell {} in a workpiece file, and diagnose the same values with it (--workpiece).", columns);
+  }
+  if (!only.empty()) {
+    e.sentence += fmt::format(
+        " But it explains {} and hardly anything else: a wrong reference, or another size of the part, looks like it.",
+        only);
+    out.otherwise +=
+        fmt::format("{}Check reference and U of {}, and the surfaces there.", out.otherwise.empty() ? "" : " ", only);
   }
   if (f.set.size() > 1) {
     e.by_member = members_of(c, closer, f, e);
