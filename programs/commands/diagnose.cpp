@@ -107,11 +107,11 @@ void doubt_known(const DiagnoseCommandOptions& options, const Recording& recordi
                               "`abbe diagnose --model-out` writes one; --machine takes a file without"));
   const std::optional<std::string> other = other_name(options, recording);
   if (other && *other != known.name)
-    said.push_back(
-        diagnostic(Code::W0714,
-                   fmt::format("'{}' knows machine '{}', {} '{}'; they are judged as one machine", *options.known,
-                               known.name, options.machine ? "--machine says" : "the recording is of", *other),
-                   "give --known what was learned of the same machine"));
+    said.push_back(diagnostic(
+        Code::W0714,
+        fmt::format("'{}' knows machine '{}', {} '{}': it is compared with what is known of '{}'", *options.known,
+                    known.name, options.machine ? "--machine says" : "the recording is of", *other, known.name),
+        "give --known what was learned of the same machine"));
 }
 
 Answer of_touches(const DiagnoseCommandOptions& options, Files& read, DiagnoseOptions how, Said& said) {
@@ -139,6 +139,15 @@ Answer of_touches(const DiagnoseCommandOptions& options, Files& read, DiagnoseOp
   return {diagnose_recording(recording, machine, how, file), name, text, machine.name};
 }
 
+/// Who asks for the machine file with what was found in it is told where it has none of it.
+void tell_what_is_not_carried(const std::string& model_out, Diagnosis& d) {
+  const bool found = !d.effects.empty() || d.unexplained;
+  if (!found || !d.model_effects.empty() || !d.superseded.empty()) return;
+  d.messages.push_back(diagnostic(
+      Code::W0737, fmt::format("'{}' has nothing of what was found: no machine file can carry it", model_out),
+      "the answer says why; 'abbe run' on that machine gives uncertainties without it"));
+}
+
 }  // namespace
 
 int diagnose_command(const DiagnoseCommandOptions& options) {
@@ -162,6 +171,7 @@ int diagnose_command(const DiagnoseCommandOptions& options) {
     }
   }();
   d.messages.insert(d.messages.begin(), said.begin(), said.end());
+  if (options.model_out) tell_what_is_not_carried(*options.model_out, d);
   print_messages(d.messages);
   std::vector<OutputFile> files;
   if (options.model_out) files.push_back({*options.model_out, improved_machine(machine_text, d)});

@@ -66,7 +66,8 @@ class Columns(harness.Case):
         self.assertTrue(any("machine.step" in e["members"] for e in said["effects"]))
         self.assertIn("Until then no machine file carries it", said["effects"][0]["sentence"])
         self.assertEqual(json.loads((self.folder / "after.json").read_text()).get("effects", []), [])
-        self.diagnosis(step, "--model-out", "timed.json")
+        self.assertIn("W0737", self.codes(said))
+        self.assertNotIn("W0737", self.codes(self.diagnosis(step, "--model-out", "timed.json")))
         self.assertNotEqual(json.loads((self.folder / "timed.json").read_text())["effects"], [])
 
     def test_a_clock_may_begin_anywhere(self):

@@ -442,7 +442,7 @@ class Mistakes(Input):
         other = json.loads((self.folder / "mine.json").read_text()) | {"name": "another"}
         self.write("another.json", json.dumps(other))
         said = self.abbe("diagnose", self.recording, "--known", "another.json", "--design-only").stderr
-        self.assertIn("'another.json' knows machine 'another', the recording is of 'coord3-mc16'", said)
+        self.assertIn("'another.json' knows machine 'another', the recording is of 'coord3-mc16': it is compared with what is known of 'another'", said)
         said = self.abbe("diagnose", self.recording, "--known", "another.json", "--machine", "coord3-mc16", "--design-only").stderr
         self.assertIn("--machine says 'coord3-mc16'", said)
         self.refused("E0601", "diagnose", self.recording, "--known", "another.json", "--machine", "nowhere.json", "--design-only")

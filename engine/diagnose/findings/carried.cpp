@@ -71,8 +71,16 @@ EffectSetting nearest_possible(const Effect& effect, EffectSetting setting) {
 
 namespace {
 
-/// A program is simulated from its own start: what happened late in this recording would come late, or never, in it.
-std::string when_in_file(const Effect& effect, const EffectSetting& setting) {
+/// A program is simulated from its own start, and so the moment of a later file counts from the start of that.
+void count_from_its_file(const Effect& effect, double begun_s, EffectSetting& setting) {
+  const std::optional<std::size_t> moment = moment_of(effect);
+  if (!moment) return;
+  double& at_s = setting.parameters[std::string(effect.parameters[*moment].name)].value;
+  at_s = std::max(0.0, at_s - begun_s);
+}
+
+/// What happened late in this recording would come late, or never, in a program.
+std::string when_in_file(const Effect& effect, const EffectSetting& setting, bool later_file) {
   const double begin_s = begins_at_s(setting);
   const int setup = only_in_setup(setting);
   if (setup > 1)
@@ -80,15 +88,18 @@ std::string when_in_file(const Effect& effect, const EffectSetting& setting) {
         " In the machine file it is there in setup {} alone, and a program is run in setup 1: to reckon with it where the part is placed as in setup {}, set its setup to 0 there.",
         setup, setup);
   if (!(begin_s > 0)) return "";
-  return fmt::format(" In the machine file it begins {:.0f} s after the start of a program, as here: {}.", begin_s,
+  return fmt::format(" In the machine file it begins {:.0f} s after the start of a program, as {}: {}.", begin_s,
+                     later_file ? "in the file in which it came" : "here",
                      effect.stage == Stage::probe ? "for what is measured since it happened, set t0_s to 0 there"
                                                   : "what was set up since it happened has none of it");
 }
 
 }  // namespace
 
-std::string carry(const Machine& machine, const Effect& effect, std::vector<DiagnosedParameter>& size, Diagnosis& out) {
+std::string carry(const Machine& machine, const Effect& effect, std::vector<DiagnosedParameter>& size, Diagnosis& out,
+                  double begun_s) {
   EffectSetting setting = setting_from(effect, size);
+  if (begun_s > 0) count_from_its_file(effect, begun_s, setting);
   std::optional<KnownEffect> before = known_effect(machine, effect, setting);
   const auto& taken = out.superseded;
   if (before && std::find(taken.begin(), taken.end(), before->index) != taken.end()) before.reset();
@@ -99,7 +110,7 @@ std::string carry(const Machine& machine, const Effect& effect, std::vector<Diag
   for (DiagnosedParameter& p : size) p.plausible = possible;
   if (!possible) return kNoSuchSize;
   if (before) out.superseded.push_back(before->index);
-  const std::string when = gone ? "" : when_in_file(effect, setting);
+  const std::string when = gone ? "" : when_in_file(effect, setting, begun_s > 0);
   if (!gone) out.model_effects.push_back(std::move(setting));
   const std::string whose = effect.stage == Stage::part ? kOfThisPart : "";
   if (!when.empty()) return whose + when;

@@ -25,7 +25,9 @@ EffectSetting setting_from(const Effect&, const std::vector<DiagnosedParameter>&
 EffectSetting nearest_possible(const Effect&, EffectSetting);
 
 /// Puts an effect of this size into `out.model_effects`, beside the other effects of the machine or with what the machine
-/// has of it already. Says in each parameter whether that is plausible, and returns what is to be said of it.
-std::string carry(const Machine&, const Effect&, std::vector<DiagnosedParameter>& size, Diagnosis& out);
+/// has of it already. Says in each parameter whether that is plausible, and returns what is to be said of it. `begun_s`: how
+/// long after the first file that began in which the effect does.
+std::string carry(const Machine&, const Effect&, std::vector<DiagnosedParameter>& size, Diagnosis& out,
+                  double begun_s = 0);
 
 }  // namespace abbe::diagnose

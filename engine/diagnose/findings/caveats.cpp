@@ -47,10 +47,7 @@ std::string warmer_in_one_placement(const Case& c) {
 }
 
 std::string warmer_in_one_placement(const Case& c, const Effect& effect, const Variant& variant) {
-  if (effect.stage != Stage::part) return "";
-  for (std::size_t p = 0; p < effect.parameters.size(); ++p)
-    if (effect.parameters[p].sought == Sought::setup && variant.theta[p] > 0) return warmer_in_one_placement(c);
-  return "";
+  return effect.stage == Stage::part && in_one_placement(effect, variant) ? warmer_in_one_placement(c) : "";
 }
 
 std::string much_like_it(const Effect& effect) {
@@ -92,6 +89,7 @@ std::string what_does_nearly_the_same(const Effect& effect, const Variant& varia
     instead.value *= unit, instead.u *= std::abs(unit);
     const auto [low, high] = std::minmax({instead.low * unit, instead.high * unit});
     instead.low = low, instead.high = high;
+    if (instead.high < p.low || instead.low > p.high) continue;  // no such effect has such a size
     others.push_back(with_uncertainty(instead));
   }
   return others.empty() ? "" : fmt::format(" Here {} would do nearly the same.", fmt::join(others, " or "));

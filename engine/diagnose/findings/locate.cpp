@@ -5,6 +5,8 @@
 #include "engine/diagnose/findings/locate.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -70,12 +72,7 @@ class Strongest {
     switch (factor) {
       case Factor::time: return range(case_.recording->rows.front().time_s ? kClock : kTouchNumber);
       case Factor::position: return ranges(kPosition);
-      case Factor::direction: {
-        Eigen::Index strongest = 0;
-        pattern_.cwiseAbs().maxCoeff(&strongest);
-        const Vec3 n = case_.scene(strongest).normal;
-        return {{"normal", fmt::format("{:.2f}, {:.2f}, {:.2f}", n.x, n.y, n.z)}};
-      }
+      case Factor::direction: return normal();
       case Factor::head:
         return label("head", [](const TouchScene& s) {
           return fmt::format("A {:.1f} B {:.1f}", in_degrees(s.stylus.head_a_rad), in_degrees(s.stylus.head_b_rad));
@@ -93,10 +90,11 @@ class Strongest {
   }
 
  private:
-  /// Between which values lie the touches that have at least half of the most that any has; nothing when that is nearly
-  /// everywhere.
+  // What has at least half of the most that any has is strong; where that is nearly everywhere, there is no place.
+  static constexpr double kStrong = 0.5, kNearlyEverywhere = 2.0 / 3;
+
+  /// Between which values lie the strong touches.
   Places range(const Coordinate& along) const {
-    constexpr double kStrong = 0.5, kNearlyEverywhere = 2.0 / 3;
     const double strong = kStrong * pattern_.cwiseAbs().maxCoeff();
     double low = 1e300, high = -1e300, first = 1e300, last = -1e300;
     for (Eigen::Index i = 0; i < pattern_.size(); ++i) {
@@ -115,7 +113,17 @@ class Strongest {
     return out;
   }
 
-  /// The label whose touches have the largest mean square.
+  /// That of the strongest touch.
+  Places normal() const {
+    const Vector size = pattern_.cwiseAbs();
+    Eigen::Index strongest = 0;
+    const double most = size.maxCoeff(&strongest);
+    if (double((size.array() >= kStrong * most).count()) >= kNearlyEverywhere * double(size.size())) return {};
+    const Vec3 n = case_.scene(strongest).normal;
+    return {{"normal", fmt::format("{:.2f}, {:.2f}, {:.2f}", n.x, n.y, n.z)}};
+  }
+
+  /// The labels whose touches are strong together, by their root mean square.
   template <class Value>
   Places label(const char* name, Value value) const {
     std::map<std::string, std::pair<double, double>> squares;  // sum, number
@@ -123,10 +131,21 @@ class Strongest {
       auto& [sum, number] = squares[value(case_.scene(i))];
       sum += pattern_(i) * pattern_(i), number += 1;
     }
-    const auto mean = [](const auto& of) { return of.second.first / of.second.second; };
-    const auto most = std::max_element(squares.begin(), squares.end(),
-                                       [&](const auto& a, const auto& b) { return mean(a) < mean(b); });
-    return {{name, most->first}};
+    const auto rms = [](const auto& of) { return std::sqrt(of.second.first / of.second.second); };
+    double most = 0;
+    for (const auto& of : squares) most = std::max(most, rms(of));
+    std::vector<std::string> strong;
+    for (const auto& of : squares)
+      if (rms(of) >= kStrong * most) strong.push_back(of.first);
+    if (double(strong.size()) >= kNearlyEverywhere * double(squares.size())) return {};
+    return {{name, enumerated(std::move(strong))}};
+  }
+
+  static std::string enumerated(std::vector<std::string> labels) {
+    constexpr std::size_t kShown = 4;
+    const std::size_t all = labels.size();
+    labels.resize(std::min(all, kShown));
+    return fmt::format("{}{}", fmt::join(labels, ", "), all > kShown ? fmt::format(" and {} more", all - kShown) : "");
   }
 
   const Case& case_;
@@ -150,16 +169,17 @@ std::map<Factor, Located> by_factor(const Case& c, const Evidence& evidence) {
   std::map<Factor, Located> out;
   for (std::size_t k = 0; k < all.list.size(); ++k) {
     const Explanation& e = all.list[k];
-    const int variant = best_variant(all, static_cast<int>(k), evidence);
-    const bool changes = all.variants[variant].change.any();
-    out[changes ? Factor::run : shown_in(c, e)].add(static_cast<int>(k), std::log(e.prior) + evidence.log_bayes[k]);
+    const Variant& best = all.variants[best_variant(all, static_cast<int>(k), evidence)];
+    out[shown_in(c, e, best)].add(static_cast<int>(k), std::log(e.prior) + evidence.log_bayes[k]);
   }
   return out;
 }
 
 }  // namespace
 
-Factor shown_in(const Case& c, const Explanation& e) {
+Factor shown_in(const Case& c, const Explanation& e, const Variant& variant) {
+  if (variant.change.any()) return Factor::run;
+  if (e.effect && in_one_placement(*e.effect, variant)) return Factor::setup;
   if (varies(c, e.factor)) return e.factor;
   constexpr unsigned kOfPlace = Covariate::position | Covariate::part_frame | Covariate::raw_reading;
   return e.effect && (e.effect->needs & kOfPlace) ? Factor::position : Factor::direction;

@@ -5,9 +5,10 @@
 
 namespace abbe::diagnose {
 
-/// The factor in which an explanation shows in this recording: its own; or, where all touches are alike in
-/// that, what of it they do differ in: the place, where it acts on that, else the direction.
-Factor shown_in(const Case&, const Explanation&);
+/// The factor in which a variant of an explanation shows in this recording: the run where it is new in one, the setup where
+/// it is there in one placement alone, else that of the explanation; or, where all touches are alike in that, what of
+/// it they do differ in: the place, where it acts on that, else the direction.
+Factor shown_in(const Case&, const Explanation&, const Variant&);
 /// Of what the search has found; nothing without.
 std::vector<Location> locate(const Case&, const EvidenceSearch& first, const SearchResult&);
 /// A pattern of this size, um rms, that gains half this `energy` in log likelihood: the relative uncertainty of its amplitude

@@ -4,6 +4,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <limits>
+#include <map>
 #include <set>
 
 #include "engine/diagnose/explanations/catalogue.hpp"
@@ -17,6 +19,7 @@
 #include "engine/diagnose/findings/members.hpp"
 #include "engine/diagnose/findings/parameters.hpp"
 #include "engine/diagnose/words.hpp"
+#include "engine/run/effect_settings.hpp"
 
 namespace abbe::diagnose {
 
@@ -80,6 +83,22 @@ Doubts doubts_of(const Case& c, const SearchResult& result, std::size_t k, const
   return d;
 }
 
+/// How long after the first file the file began that has the first touch since an effect began.
+double begun_s(const Case& c, const Effect& effect, const std::vector<DiagnosedParameter>& size) {
+  const double at_s = begins_at_s(setting_from(effect, size));
+  std::map<int, double> start_s;
+  double first_s = std::numeric_limits<double>::infinity(), next_s = first_s;
+  int file_of_next = -1;
+  for (const int row : c.rows) {
+    const RecordedTouch& touch = c.touches.touches[row];
+    const double time_s = touch.scene.time_s;
+    double& start = start_s.try_emplace(touch.file, time_s).first->second;
+    start = std::min(start, time_s), first_s = std::min(first_s, time_s);
+    if (time_s >= at_s && time_s < next_s) next_s = time_s, file_of_next = touch.file;
+  }
+  return at_s > 0 && file_of_next >= 0 ? start_s.at(file_of_next) - first_s : 0;
+}
+
 /// Gives the machine file what it gets of a name, judges its sizes by that (carried.hpp), and says what is to be said of it.
 std::string give_file(const Case& c, const Finding& f, bool looked_for, DiagnosedEffect& e, Diagnosis& out) {
   const Effect& effect = *c.explanations.list[f.explanation].effect;
@@ -91,7 +110,9 @@ std::string give_file(const Case& c, const Finding& f, bool looked_for, Diagnose
     return fmt::format(
         " It may come from the rounding of the positions to {:g} um, and no machine file carries it: record the digits that the machine has.",
         c.step_um);
-  return belief_in_first(c.explanations, f) < kCarried ? kNotCarried : carry(*c.machine, effect, e.parameters, out);
+  return belief_in_first(c.explanations, f) < kCarried
+      ? kNotCarried
+      : carry(*c.machine, effect, e.parameters, out, begun_s(c, effect, e.parameters));
 }
 
 }  // namespace

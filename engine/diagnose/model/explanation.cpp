@@ -27,6 +27,12 @@ bool alike(const Variant& a, const Variant& b) {
   return true;
 }
 
+bool in_one_placement(const Effect& effect, const Variant& variant) {
+  for (std::size_t p = 0; p < effect.parameters.size(); ++p)
+    if (effect.parameters[p].sought == Sought::setup && variant.theta[p] > 0) return true;
+  return false;
+}
+
 void share_belief(const Explanation& e, std::vector<Variant>& variants) {
   constexpr double kAny = 0.5, kEachAxis = (1 - kAny) / 3;
   double constant = 0, changing = 0;

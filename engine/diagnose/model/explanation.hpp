@@ -71,6 +71,9 @@ struct Variant {
 /// in all runs and a change from one run to the next are two, and so are those of two styli or two axes.
 bool alike(const Variant&, const Variant&);
 
+/// Whether it is an effect that is there in one placement of the part alone.
+bool in_one_placement(const Effect&, const Variant&);
+
 inline constexpr double kSameColumns_um = 1e-9;
 /// Whether both have the same columns, so that no touch tells one from the other: none differs by this much anywhere, um.
 bool same_columns(const Matrix&, const Matrix&, double less_than_um = kSameColumns_um);

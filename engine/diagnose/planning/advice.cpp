@@ -17,6 +17,7 @@
 #include "engine/effects/noise/noise.hpp"
 #include "engine/math/units.hpp"
 #include "engine/run/effect_set.hpp"
+#include "engine/run/effect_settings.hpp"
 #include "engine/run/recorded/logged.hpp"
 
 namespace abbe::diagnose {
@@ -159,7 +160,8 @@ std::string to_check_a_name(const Case& c, const SearchResult& result, const Dia
     const Finding& f = result.findings[k];
     if (of_several_sizes(f.sizes)) return to_follow_a_pattern(c, f.sizes->factor);
     if (f.set.size() == 1 && told.effects.at(k).probability < kTold)
-      return to_follow_a_pattern(c, shown_in(c, c.explanations.list[f.explanation]));
+      return to_follow_a_pattern(c,
+                                 shown_in(c, c.explanations.list[f.explanation], c.explanations.variants[f.variant]));
   }
   return "";
 }
@@ -251,7 +253,7 @@ std::string to_part_runs(const Case& c, const SearchResult& result) {
   if (!runs_share_a_setup(c) || std::any_of(result.findings.begin(), result.findings.end(), new_in_run)) return "";
   const auto over_runs = [&](const Finding& f) {
     if (f.probability >= kTold && !result.other) return false;
-    const Factor factor = shown_in(c, all.list[f.explanation]);
+    const Factor factor = shown_in(c, all.list[f.explanation], all.variants[f.variant]);
     return factor == Factor::time || factor == Factor::run;
   };
   if (!std::any_of(result.findings.begin(), result.findings.end(), over_runs) &&
@@ -298,13 +300,24 @@ std::string to_take_out_patterns(const Case& c, const SearchResult& result) {
       fmt::join(names, " and "));
 }
 
+/// What came suddenly in an earlier recording was there from the start of a later one.
+std::string to_begin_at_the_start(const Case& c, const SearchResult& result) {
+  if (result.findings.empty() && !result.other) return "";
+  for (const EffectSetting& of_file : c.machine->effects)
+    if (begins_at_s(of_file) > 0 && find_effect(of_file.name)->stage == Stage::probe)
+      return fmt::format(
+          "The machine file has {} from {:.0f} s after the start on: if it was there from the start this time, set its t0_s to 0 and diagnose again, which costs no measurement.",
+          of_file.name, begins_at_s(of_file));
+  return "";
+}
+
 }  // namespace
 
 std::string otherwise(const Case& c, const SearchResult& result, const Diagnosis& told) {
-  std::vector<std::string> sentences = {to_know_qualifications(c, result), to_number_runs(c, result, told),
-                                        to_take_out_patterns(c, result),   to_part_runs(c, result),
-                                        to_know_sizes(c, result),          to_know_the_material(c, result),
-                                        besides_sizes(c, result, told),    to_record_digits(c, told)};
+  std::vector<std::string> sentences = {
+      to_know_qualifications(c, result), to_number_runs(c, result, told), to_take_out_patterns(c, result),
+      to_begin_at_the_start(c, result),  to_part_runs(c, result),         to_know_sizes(c, result),
+      to_know_the_material(c, result),   besides_sizes(c, result, told),  to_record_digits(c, told)};
   std::erase(sentences, "");
   return fmt::format("{}", fmt::join(sentences, " "));
 }

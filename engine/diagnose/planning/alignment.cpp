@@ -31,7 +31,7 @@ class Aligner {
         f->touched.normals.push_back(s.normal);
       }
     }
-    for (auto& [which, f] : features_) f.label = labels_.features[static_cast<std::size_t>(which)];
+    for (auto& [which, f] : features_) f.label = of_its_own(labels_.features[static_cast<std::size_t>(which)]);
   }
 
   std::optional<Alignment> on_a_ball() {
@@ -39,7 +39,7 @@ class Aligner {
     if (!ball) return std::nullopt;
     const std::vector<std::size_t> chosen = apart();
     Face some;
-    some.label = features_.size() == 1 ? features_.begin()->second.label : "BALL";
+    some.label = features_.size() == 1 ? features_.begin()->second.label : of_its_own("BALL");
     for (const std::size_t i : chosen) {
       some.k.push_back(everything_.k[i]);
       some.touched.points.push_back(everything_.touched.points[i]),
@@ -75,6 +75,14 @@ class Aligner {
   using Pair = std::pair<std::size_t, std::size_t>;
 
   const TouchScene& scene(std::size_t k) const { return longer_.touches.touches[k].scene; }
+
+  /// Its touches are others than those of the feature that is measured then.
+  std::string of_its_own(const std::string& label) const {
+    std::string out = "ALIGN_" + label;
+    while (std::find(labels_.features.begin(), labels_.features.end(), out) != labels_.features.end())
+      out = "ALIGN_" + out;
+    return out;
+  }
 
   /// The two touches of a face that give the best direction across another face.
   static std::optional<Pair> line_on(const Face& face, const Face& other) {

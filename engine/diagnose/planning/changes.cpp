@@ -129,11 +129,7 @@ void add_placements(const Case& c, std::vector<Change>& list) {
                   .new_setup = true});
   if (c.recording->in_part_frame) return;  // where the part stood was not recorded
   const auto turned = [&](const std::string& how, const Vec3& axis, double angle_rad) {
-    list.push_back({.text = "repeat with the part " + how,
-                    .instruction = "place the part " + how + " and align it again",
-                    .minutes = 10,
-                    .move = moved(c, rotation(axis, angle_rad), {}),
-                    .new_setup = true});
+    list.push_back(placed_anew(how, moved(c, rotation(axis, angle_rad), {})));
   };
   turned("turned by 90 degrees about the vertical", {0, 0, 1}, kPi / 2);
   turned("turned by 180 degrees about the vertical", {0, 0, 1}, kPi);
@@ -143,11 +139,7 @@ void add_placements(const Case& c, std::vector<Change>& list) {
   constexpr double kWorthIt_mm = 50;
   if (std::abs(height) < kWorthIt_mm) return;
   const std::string how = fmt::format("{} by {:.0f} mm", height > 0 ? "raised" : "lowered", std::abs(height));
-  list.push_back({.text = "repeat with the part " + how,
-                  .instruction = "place the part " + how + " and align it again",
-                  .minutes = 10,
-                  .move = moved(c, Mat3{}, {0, 0, height}),
-                  .new_setup = true});
+  list.push_back(placed_anew(how, moved(c, Mat3{}, {0, 0, height})));
 }
 
 void add_conditions(const Case& c, std::vector<Change>& list) {
@@ -170,6 +162,16 @@ void add_conditions(const Case& c, std::vector<Change>& list) {
 }
 
 }  // namespace
+
+Change placed_anew(const std::string& how, const Rigid& move) {
+  const bool several = how.find(',') != std::string::npos;
+  return {.text = "repeat with the part " + how,
+          .instruction = "place the part " + how + (several ? "," : "") + " and align it again",
+          .minutes = 10,
+          .move = move,
+          .placed = how,
+          .new_setup = true};
+}
 
 std::vector<Change> changes_for(const Case& c) {
   std::vector<Change> list;

@@ -19,6 +19,7 @@ struct Change {
   /// What becomes of a row; a stylus that is new joins the sensors of the machine.
   std::function<void(RecordingRow&, Machine&)> apply = [](RecordingRow&, Machine&) {};
   std::optional<Rigid> move{};  ///< of the part, in the coordinates of the recording
+  std::string placed = {};      ///< how the part stands then: "turned by 90 degrees about the vertical"
   bool new_setup = false;       ///< the part is placed anew, or does not stay put to micrometres
   bool reversed = false;        ///< the sequence runs from its end to its beginning
   bool changes_touches = true;  ///< not only their order and time
@@ -28,6 +29,9 @@ struct Change {
 inline bool is_straight(const Vec3& tip_in_r_mm) {
   return std::hypot(tip_in_r_mm.x, tip_in_r_mm.y) < 1e-6 * norm(tip_in_r_mm);
 }
+
+/// The part is placed anew and aligned: moved so, which `how` tells as Change::placed does.
+Change placed_anew(const std::string& how, const Rigid& move);
 
 /// The changes that a recording like this one can hold.
 std::vector<Change> changes_for(const Case&);

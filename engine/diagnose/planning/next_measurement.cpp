@@ -145,6 +145,11 @@ double expected_probability(const std::vector<Contender>& list) {
 
 /// Both changes at once.
 Change joined(const Change& a, const Change& b) {
+  if (a.move && b.move) {  // it is put down once
+    Change out = placed_anew(a.placed + ", then " + b.placed, *b.move * *a.move);
+    out.minutes = a.minutes + b.minutes;
+    return out;
+  }
   constexpr std::string_view kRepeat = "repeat ";
   const auto both = [](const std::string& x, const std::string& y, std::string_view between) {
     return x.empty() || y.empty() ? x + y : x + std::string(between) + y;
@@ -153,9 +158,7 @@ Change joined(const Change& a, const Change& b) {
           .instruction = both(a.instruction, b.instruction, "; "),
           .minutes = a.minutes + b.minutes,
           .apply = [a, b](RecordingRow& row, Machine& machine) { a.apply(row, machine), b.apply(row, machine); },
-          .move = a.move && b.move ? *b.move * *a.move
-              : a.move             ? a.move
-                                   : b.move,
+          .move = a.move ? a.move : b.move,
           .new_setup = a.new_setup || b.new_setup,
           .reversed = a.reversed || b.reversed};
 }

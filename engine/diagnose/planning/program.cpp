@@ -212,7 +212,7 @@ class Writer {
     if (!change_.move) return;
     const std::optional<Alignment> alignment = setups_.size() == 1 ? alignment_of(longer_) : std::nullopt;
     if (alignment) {
-      say("Manual alignment on touches of its own. Where they should lie is only a guide.");
+      say("Manual alignment on touches of its own (ALIGN_...), which are not for the diagnosis: their rows may be left out. Where they should lie is only a guide.");
       out_ += "MODE/MAN\n" + alignment->statements;
       tell_operator("drive the tip above the part, clear of everything");
       X_DW_ = alignment->X_DR * X_DW_;

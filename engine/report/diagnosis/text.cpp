@@ -138,7 +138,8 @@ std::string what_would_show(const Diagnosis& d) {
     if (!s.scatter) shown.push_back(&s);
   if (shown.empty()) return "";
   std::sort(shown.begin(), shown.end(), [](const auto* a, const auto* b) { return a->detect_um < b->detect_um; });
-  const std::size_t others = open_questions(d).size();
+  const std::vector<CannotJudge> open = open_questions(d);
+  const auto others = std::count_if(open.begin(), open.end(), [](const CannotJudge& c) { return !is_noise(c.effect); });
   return fmt::format(
       "Of the {} that {} can show, half would be seen from {} um on at the latest, and the last one ({}) from {} um on{}.",
       shown.size() == 1 ? "one effect" : fmt::format("{} effects", shown.size()),
@@ -323,6 +324,9 @@ std::vector<std::string> further_steps(const Diagnosis& d) {
     if (out.empty()) out.push_back("Nothing needs mending: use the machine file as it is.");
     out.push_back(
         "Smaller effects, and those that cannot be judged, need another measurement: 'abbe diagnose --design-only' says what a plan could show.");
+    if (d.values.empty() && !d.baseline.known)
+      out.push_back(
+          "What depends on the place alone, and is no larger than the specification allows, counts as an error of this machine: that it is new shows only beside what was known of it before (--known, with the file that --model-out wrote).");
   }
   const auto of_outliers = [](const DiagnosedEffect& e) { return e.members.front() == kOutliers.name; };
   if (!d.baseline.outliers.empty() && std::any_of(d.effects.begin(), d.effects.end(), of_outliers))

@@ -122,3 +122,12 @@ TEST_CASE("what explains a mismatch may be a pattern of the machine file that is
   p.machine.effects = {pattern_of(-1)};
   CHECK(p.says(kDoubted).find(told) == std::string::npos);
 }
+
+TEST_CASE("what the machine file has from some moment on may have been there from the start this time") {
+  LeavesMore p;
+  p.result.adequacy = 1;
+  p.machine.effects = {{"probe.step", {{"amplitude_um", {4, 0.2, ""}}, {"t0_s", {167, 1, ""}}}}};
+  CHECK(p.says().starts_with("The machine file has probe.step from 167 s after the start on"));
+  p.machine.effects.front().parameters["t0_s"].value = 0;
+  CHECK(p.says() == "");
+}

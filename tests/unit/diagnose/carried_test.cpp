@@ -55,6 +55,19 @@ TEST_CASE("of a sudden change it is said when it begins in the machine file") {
   CHECK(said_of("probe.step", 0) == "");
 }
 
+TEST_CASE("a sudden change of a later file begins in the machine file as long after the start as it did in that") {
+  for (const double begun_s : {700.0, 800.0}) {  // between two files it began before the start of the later one
+    std::vector<DiagnosedParameter> size = {{.name = "amplitude_um", .unit = "um", .value = 4, .u = 0.2},
+                                            {.name = "t0_s", .unit = "s", .value = 742, .u = 1}};
+    Diagnosis out;
+    const std::string said = carry(Machine{}, *find_effect("probe.step"), size, out, begun_s);
+    CHECK(out.model_effects.front().parameters.at("t0_s").value == std::max(0.0, 742 - begun_s));
+    CHECK((said.find("begins 42 s after the start of a program, as in the file in which it came") !=
+           std::string::npos) == (begun_s == 700));
+    CHECK(size[1].value == 742);
+  }
+}
+
 TEST_CASE("of what is there in another placement of the part it is said that a program is run in the first") {
   for (const double setup : {0.0, 1.0, 2.0}) {
     std::vector<DiagnosedParameter> size = {{.name = "bow_um", .unit = "um", .value = 4, .u = 0.2},

@@ -87,12 +87,30 @@ TEST_CASE("nothing found lies nowhere") {
 TEST_CASE("an effect shows in the factor of which it is a function, or in what of it the touches differ in") {
   Planted p(3);
   p.find({"probe.trigger_delay", "head.axis_errors", "machine.step"});
-  const std::vector<Explanation>& e = p.c.explanations.list;
-  CHECK(shown_in(p.c, e[0]) == Factor::speed);
-  CHECK(shown_in(p.c, e[1]) == Factor::head);
+  const auto factor_of = [&](int k) {
+    const Explanation& e = p.c.explanations.list[k];
+    return shown_in(p.c, e, p.c.explanations.variants[e.variants.front()]);
+  };
+  CHECK(factor_of(0) == Factor::speed);
+  CHECK(factor_of(1) == Factor::head);
   for (int i = 0; i < p.count(); ++i) p.scene(i).speed_mm_s = 3, p.scene(i).stylus.head_b_rad = 0;
-  CHECK(shown_in(p.c, e[0]) == Factor::direction);
-  CHECK(shown_in(p.c, e[1]) == Factor::direction);
+  CHECK(factor_of(0) == Factor::direction);
+  CHECK(factor_of(1) == Factor::direction);
+}
+
+TEST_CASE("what is new in a run shows there, and what is in one placement alone there") {
+  Planted p(5);
+  p.find({"thermal.part_expansion"});
+  const Explanation& e = p.c.explanations.list[0];
+  Variant variant = p.c.explanations.variants[e.variants.front()];
+  std::size_t setup = 0;
+  while (e.effect->parameters[setup].name != "setup") ++setup;
+  variant.theta[setup] = 0;
+  CHECK(shown_in(p.c, e, variant) == e.factor);
+  variant.theta[setup] = 2;
+  CHECK(shown_in(p.c, e, variant) == Factor::setup);
+  variant.change.from = 2;
+  CHECK(shown_in(p.c, e, variant) == Factor::run);
 }
 
 TEST_CASE("the likelier factor stands first, others beside it with their share of what the best describes") {

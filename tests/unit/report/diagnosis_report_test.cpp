@@ -72,7 +72,7 @@ TEST_CASE("whatever is found, there are three sentences, a table and what to do 
   };
   d.smallest_detectable = {seen_from("machine.ram_droop", 6.2), seen_from("probe.tip_radius", 1.5),
                            seen_from("noise.vibration", 0.9)};
-  d.cannot_judge = {{"thermal.drift", {"time_s"}, {}}};
+  d.cannot_judge = {{"thermal.drift", {"time_s"}, {}}, {"noise.unequal", {"sensor"}, {}}};
   CHECK(diagnosis_sentences(d).size() == 3);
   CHECK(says(diagnosis_sentences(d)[1], "at the least 1.5 um (probe.tip_radius)"));  // scatter is another thing
   CHECK(
@@ -81,6 +81,10 @@ TEST_CASE("whatever is found, there are three sentences, a table and what to do 
            "one (machine.ram_droop) from 6.2 um on; 1 more cannot be judged."));
   for (const std::string& written : {diagnosis_text(d), diagnosis_html(d, "r.csv", "m.json")})
     CHECK(says(written, "use the machine file as it is"));
+  for (const bool known : {false, true}) {
+    d.baseline.known = known;
+    CHECK(says(diagnosis_text(d), "What depends on the place alone") == !known);
+  }
   CHECK(says(diagnosis_text(d), "what to do next:\n"));
   d.baseline.geometry_scale = 3;
   d.messages = {diagnostic(Code::W0723, "large", "measure calibrated lengths")};
