@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "engine/base/files.hpp"
 #include "engine/report/diagnosis/diagnosis_report.hpp"
 #include "engine/run/recorded/from_program.hpp"
@@ -139,9 +141,10 @@ Answer of_touches(const DiagnoseCommandOptions& options, Files& read, DiagnoseOp
   return {diagnose_recording(recording, machine, how, file), name, text, machine.name};
 }
 
-/// Who asks for the machine file with what was found in it is told where it has none of it.
+/// Who asks for the machine file with what was found in it is told where it has none of it. What is gone it does not need.
 void tell_what_is_not_carried(const std::string& model_out, Diagnosis& d) {
-  const bool found = !d.effects.empty() || d.unexplained;
+  const auto stays = [](const DiagnosedEffect& e) { return e.change.empty() || !e.change.front().gone(); };
+  const bool found = d.unexplained || std::any_of(d.effects.begin(), d.effects.end(), stays);
   if (!found || !d.model_effects.empty() || !d.superseded.empty()) return;
   d.messages.push_back(diagnostic(
       Code::W0737, fmt::format("'{}' has nothing of what was found: no machine file can carry it", model_out),

@@ -252,6 +252,7 @@ class DiagnoseRuns(harness.Case):
         self.assertIn("probe.tip_radius", found["members"])
         self.assertEqual(found["gone_in_run"][found["members"].index("probe.tip_radius")], 2)
         self.assertIn("what is gone in run 2", found["sentence"].lower())
+        self.assertNotIn("W0737", [m["code"] for m in said["messages"]])   # nothing is missing from it
         self.assertEqual(json.loads((self.folder / "now.json").read_text()).get("effects", []), [])
 
     def test_what_came_and_went_is_one_thing(self):
@@ -266,6 +267,7 @@ class DiagnoseRuns(harness.Case):
         self.assertEqual([(e["members"], e["new_in_run"], e["gone_in_run"]) for e in said["effects"]],
                          [(["probe.pretravel_lobing"], [2], [3])])
         self.assertIn("What is new in run 2 and gone in run 3 is explained by", said["effects"][0]["sentence"])
+        self.assertNotIn("W0737", [m["code"] for m in said["messages"]])   # nothing is missing from it
         self.assertEqual(json.loads((self.folder / "now.json").read_text()).get("effects", []), [])
 
     def test_of_many_runs_it_is_found_in_which_something_is_new(self):
