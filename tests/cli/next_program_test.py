@@ -222,6 +222,8 @@ class NextProgram(harness.Case):
         self.assertIn("run 3 and setup 3", best["instruction"])
         self.assertIn(best["instruction"], self.abbe("diagnose", first, second).stdout)
         self.assertRegex(moved.read_text(), r"(?s)MODE/MAN\n.*DATSET/DAT\(A\),ZDIR,ZORIG,DAT\(B\),XDIR,YORIG,DAT\(C\),XORIG\n.*MODE/PROG")
+        labels = re.findall(r"^F\((\w+)\)=", moved.read_text(), re.M)
+        self.assertEqual(len(labels), len(set(labels)), labels)   # touches of the alignment are those of no other feature
         third = self.record(moved, "third.csv", *plant, "--run", 3, "--setup", 3)
         # Where an error-free machine stops: the points of the first recording, tilted as asked.
         c, s = math.cos(math.pi / 9), math.sin(math.pi / 9)

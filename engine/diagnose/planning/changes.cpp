@@ -164,9 +164,8 @@ void add_conditions(const Case& c, std::vector<Change>& list) {
 }  // namespace
 
 Change placed_anew(const std::string& how, const Rigid& move) {
-  const bool several = how.find(',') != std::string::npos;
   return {.text = "repeat with the part " + how,
-          .instruction = "place the part " + how + (several ? "," : "") + " and align it again",
+          .instruction = "place the part " + how + " and align it again",
           .minutes = 10,
           .move = move,
           .placed = how,

@@ -146,7 +146,7 @@ double expected_probability(const std::vector<Contender>& list) {
 /// Both changes at once.
 Change joined(const Change& a, const Change& b) {
   if (a.move && b.move) {  // it is put down once
-    Change out = placed_anew(a.placed + ", then " + b.placed, *b.move * *a.move);
+    Change out = placed_anew(a.placed + " and then " + b.placed, *b.move * *a.move);
     out.minutes = a.minutes + b.minutes;
     return out;
   }
