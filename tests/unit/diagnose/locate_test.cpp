@@ -73,6 +73,11 @@ TEST_CASE("a pattern over time lies between two times, or between two touches wh
   CHECK(label(Factor::time, late) == "touch 211 to 240");
 }
 
+TEST_CASE("all labels are told that are strong, and none where that is nearly everywhere") {
+  CHECK(label(Factor::feature, [](const TouchScene& s) { return s.feature == 1 || s.feature == 3; }) == "feature B, D");
+  CHECK(label(Factor::feature, [](const TouchScene& s) { return s.feature > 0; }) == "everywhere");
+}
+
 TEST_CASE("what shows nearly everywhere has no place") {
   CHECK(label(Factor::position, [](const TouchScene& s) { return s.feature % 2 == 0; }) == "everywhere");
 }
