@@ -55,11 +55,13 @@ struct MarginalLikelihood::AtScale {
   const double* const* u;                             ///< of each column at the first scale
   std::ptrdiff_t after;                               ///< it, as many numbers
   double* along;                                      ///< by axis of some and recording: Q' u
-  double *before, *left, *logs;  ///< by size and recording; `before`: what L^-1 Q' u is along the axis before
+  double *before, *left;  ///< by size and recording; `before`: what L^-1 Q' u is along the axis before
+  double* logs;           ///< likewise, of each scale
 
   AtScale next() const {
     AtScale s = *this;
     s.axes += columns * columns, s.carried += columns * sizes, s.share += columns * sizes, s.log_weight += sizes;
+    s.logs += sizes * recordings;
     s.squares += recordings, s.after += recordings;
     return s;
   }
@@ -84,9 +86,9 @@ struct MarginalLikelihood::AtScale {
     for (; first < recordings && recordings < width; ++first) project<1, together>(axis, first);
   }
 
-  /// What the variant leaves of the sums of squares at each size, and what the log likelihoods then are.
+  /// What the variant leaves of the sums of squares at each size, and what the log likelihoods at this scale then are.
   template <int width>
-  [[gnu::always_inline]] inline void judge_sizes() const {
+  [[gnu::always_inline]] inline void judge_sizes(double log_scale) const {
     for (int size = 0; size < sizes; ++size) {
       double *const l = left + size * recordings, *const b = before + size * recordings;
       ABBE_NO_ALIAS
@@ -112,7 +114,7 @@ struct MarginalLikelihood::AtScale {
       }
     }
     for (int size = 0; size < sizes; ++size) {
-      const double *const l = left + size * recordings, weight = log_weight[size];
+      const double *const l = left + size * recordings, weight = log_scale + log_weight[size];
       double* const log = logs + size * recordings;
       ABBE_NO_ALIAS
       for (int r = 0; r < recordings; ++r) log[r] = weight - shape * log_positive(l[r]);
@@ -130,7 +132,7 @@ MarginalLikelihood::MarginalLikelihood(Matrix squares, Vector log_scale, double 
 MarginalLikelihood::AtScale MarginalLikelihood::at_first_scale(const PreparedVariant& b, const WithData& u) {
   left_.resize(b.sizes.size() * top_.size());
   before_.resize(left_.size());
-  logs_.resize(left_.size());
+  logs_.resize(left_.size() * scales());
   return {.recordings = recordings(),
           .columns = static_cast<int>(b.count),
           .sizes = static_cast<int>(b.sizes.size()),
@@ -163,18 +165,11 @@ Vector MarginalLikelihood::alone() {
 
 void MarginalLikelihood::with(const PreparedVariant& b, const WithData& u, double* out) {
   on_vectors(vector_width(),
-             [first = at_first_scale(b, u), scales = scales(), log_scale = log_scale_.data(),
-              by_scale = by_scale_.data(), top = top_.data(), out](auto width) {
-               const int n = first.recordings;
+             [first = at_first_scale(b, u), scales = scales(), log_scale = log_scale_.data(), top = top_.data(),
+              out](auto width) {
                AtScale s = first;
-               for (int j = 0; j < scales; ++j, s = s.next()) {
-                 s.judge_sizes<width>();
-                 double* const log = by_scale + j * n;
-                 log_sums_exp(s.sizes, n, s.logs, top, log);
-                 ABBE_NO_ALIAS
-                 for (int r = 0; r < n; ++r) log[r] += log_scale[j];
-               }
-               log_sums_exp(scales, n, by_scale, top, out);
+               for (int j = 0; j < scales; ++j, s = s.next()) s.judge_sizes<width>(log_scale[j]);
+               log_sums_exp(scales * first.sizes, first.recordings, first.logs, top, out);
              });
 }
 
@@ -189,12 +184,12 @@ ByScale MarginalLikelihood::with_by_scale(const PreparedVariant& b, const WithDa
   ByScale out{Vector(scales()), Vector(scales()), Vector(scales())};
   AtScale s = at_first_scale(b, u);
   for (int j = 0; j < scales(); ++j, s = s.next()) {
-    s.judge_sizes<1>();
+    s.judge_sizes<1>(log_scale_(j));
     int best = 0;
     for (int size = 1; size < s.sizes; ++size)
       if (s.logs[size * s.recordings] > s.logs[best * s.recordings]) best = size;
     log_sums_exp(s.sizes, s.recordings, s.logs, top_.data(), by_scale_.data());
-    out.log_likelihood(j) = by_scale_.front() + log_scale_(j);
+    out.log_likelihood(j) = by_scale_.front();
     out.squares(j) = s.left[best * s.recordings];
     out.size(j) = b.sizes[static_cast<std::size_t>(best)].factor;
   }
