@@ -267,6 +267,11 @@ class DiagnoseRuns(harness.Case):
         self.assertEqual([(e["members"], e["new_in_run"], e["gone_in_run"]) for e in said["effects"]],
                          [(["probe.pretravel_lobing"], [2], [3])])
         self.assertIn("What is new in run 2 and gone in run 3 is explained by", said["effects"][0]["sentence"])
+        # No other run shows what was in this one: its touches are predicted from each other.
+        improvement = said["improvement"]
+        self.assertEqual(improvement["scheme"], "leave-one-fifth-out")
+        self.assertGreater(improvement["bias_um"]["before"], 0.5)
+        self.assertLess(abs(improvement["bias_um"]["after"]), improvement["bias_um"]["before"] / 3)
         self.assertNotIn("W0737", [m["code"] for m in said["messages"]])   # nothing is missing from it
         self.assertEqual(json.loads((self.folder / "now.json").read_text()).get("effects", []), [])
 

@@ -5,7 +5,7 @@
 // variants nor of a size, and terms of improper priors cancel. Which variants are in question (those that a round keeps,
 // search.cpp), and the other findings, are those of the whole recording. Model and baseline have each their own noise and
 // size of the machine's errors: those of the whole recording with what was found and without. The scheme is
-// the hardest that the recording allows: setups, runs, orientations, else parts of the sequence in time. The
+// the hardest that the recording and what was found allow: setups, runs, orientations, else parts of the sequence in time. The
 // residuals that are shown are those of the same predictions: of each group from the others, by the machine
 // as they show it, without and with what was found.
 #include "engine/diagnose/findings/improvement.hpp"
@@ -42,7 +42,32 @@ bool comparable(const Scheme& s) {
   return count.size() >= 3 && 2 * largest->second <= double(s.group.size());
 }
 
-Scheme scheme_of(const Case& c) {
+/// What was told, in its order: the names, and the pattern that no name explains.
+struct Told {
+  int explanation = 0, variant = 0;
+};
+std::vector<Told> all_told(const SearchResult& result) {
+  std::vector<Told> list;
+  for (const Finding& f : result.findings) list.push_back({f.explanation, f.variant});
+  if (result.other) list.push_back({result.other->explanation, result.other->variant});
+  return list;
+}
+
+/// Whether what was told shows in more groups than one: what shows in one alone can be learnt from no other.
+bool predictable(const Scheme& s, const Case& c, const std::vector<Told>& told) {
+  constexpr double kInOne = 0.95;
+  return std::all_of(told.begin(), told.end(), [&](const Told& t) {
+    Vector squares = Vector::Zero(c.model.y.size());
+    for (const auto& column : c.explanations.variants[t.variant].signature.colwise())
+      squares += beside_free(c.model, column).cwiseAbs2();
+    std::map<int, double> by_group;
+    for (std::size_t k = 0; k < s.group.size(); ++k) by_group[s.group[k]] += squares(static_cast<Eigen::Index>(k));
+    return std::all_of(by_group.begin(), by_group.end(),
+                       [&](const auto& group) { return group.second <= kInOne * squares.sum(); });
+  });
+}
+
+Scheme scheme_of(const Case& c, const std::vector<Told>& told) {
   const auto by = [&](const char* name, auto key) {
     Scheme s{name, {}};
     for (const int i : c.rows) s.group.push_back(key(c.touches.touches[i].scene));
@@ -57,7 +82,7 @@ Scheme scheme_of(const Case& c) {
             .first->second;
       })};
   for (const Scheme& s : candidates)
-    if (comparable(s)) return s;
+    if (comparable(s) && predictable(s, c, told)) return s;
   // Every fifth stretch of three touches, not one stretch: what happened once can be learnt from no other stretch.
   constexpr int kFolds = 5;
   Scheme s{"leave-one-fifth-out", {}};
@@ -157,17 +182,6 @@ void tell_residuals(const Case& c, const Vector& before, const Vector& after, Di
   }
 }
 
-/// What was told, in its order: the names, and the pattern that no name explains.
-struct Told {
-  int explanation = 0, variant = 0;
-};
-std::vector<Told> all_told(const SearchResult& result) {
-  std::vector<Told> list;
-  for (const Finding& f : result.findings) list.push_back({f.explanation, f.variant});
-  if (result.other) list.push_back({result.other->explanation, result.other->variant});
-  return list;
-}
-
 /// By group: what all that was told gains there, each beside those before it, and what it was taken for.
 struct GroupGains {
   std::vector<double> gain;
@@ -249,7 +263,8 @@ double standard_error_of_sum(const std::vector<double>& gain, const std::vector<
 }
 
 void show_improvement(const Case& c, const SearchResult& result, Diagnosis& out) {
-  const Scheme scheme = scheme_of(c);
+  const std::vector<Told> told = all_told(result);
+  const Scheme scheme = scheme_of(c, told);
   const LinearModel machine = likelier_ensemble(c, c.model);
   const Hyperparameters& hyper = result.hyper_of_likelier;
   // Before and after by one machine, as it is beside what was told: one that takes the mismatch for its own
@@ -257,7 +272,6 @@ void show_improvement(const Case& c, const SearchResult& result, Diagnosis& out)
   Vector before = Vector::Zero(machine.y.size());
   for (const int g : std::set<int>(scheme.group.begin(), scheme.group.end()))
     before += beyond_prediction(machine, hyper, of_group(scheme, g));
-  const std::vector<Told> told = all_told(result);
   if (told.empty()) return tell_residuals(c, before, before, out);
   const std::vector<double> baseline = held_out(c, scheme, told.front().explanation, c.model, c.hyper).null;
   const GroupGains gains = gains_of(c, scheme, told, result.hyper, baseline);

@@ -186,6 +186,23 @@ TEST_CASE("of an effect that is as large everywhere, rounding does not choose th
   CHECK(std::abs(rounded.bias_after_um - exact.bias_after_um) < 1e-9);
 }
 
+TEST_CASE("what shows in one setup alone is predicted within it") {
+  Found found;
+  Diagnosis out;
+  Matrix& shape = found.c.explanations.variants[0].signature;
+  for (int i = 0; i < kAllTouches; ++i) {
+    found.c.touches.touches[i].scene.stylus.head_b_rad = 0.5 * (i % 4);
+    if (i >= kInSetup) shape(i) = 0;
+  }
+  CHECK(found.shown(out).scheme == "leave-one-orientation-out");
+  shape(kAllTouches - 1) = 0.5;  // what little one touch of another setup has of it tells nothing
+  CHECK(found.shown(out).scheme == "leave-one-orientation-out");
+  for (int i = 0; i < kAllTouches; ++i) shape(i) = i < kInSetup ? 1 : 5;  // nor where another may stand anywhere
+  found.c.model.free = Matrix::Zero(kAllTouches, 1);
+  found.c.model.free.bottomRows(kAllTouches - kInSetup).setOnes();
+  CHECK(found.shown(out).scheme == "leave-one-orientation-out");
+}
+
 TEST_CASE("what is left out is the hardest that leaves others to learn from") {
   Found found;
   Diagnosis out;
