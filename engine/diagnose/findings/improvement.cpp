@@ -53,17 +53,23 @@ std::vector<Told> all_told(const SearchResult& result) {
   return list;
 }
 
-/// Whether what was told shows in more groups than one: what shows in one alone can be learnt from no other.
-bool predictable(const Scheme& s, const Case& c, const std::vector<Told>& told) {
+/// Whether so much of it is in one group that the others do not tell how large it is there.
+bool in_one_group(const Scheme& s, const Vector& squares) {
   constexpr double kInOne = 0.95;
-  return std::all_of(told.begin(), told.end(), [&](const Told& t) {
-    Vector squares = Vector::Zero(c.model.y.size());
-    for (const auto& column : c.explanations.variants[t.variant].signature.colwise())
-      squares += beside_free(c.model, column).cwiseAbs2();
-    std::map<int, double> by_group;
-    for (std::size_t k = 0; k < s.group.size(); ++k) by_group[s.group[k]] += squares(static_cast<Eigen::Index>(k));
-    return std::all_of(by_group.begin(), by_group.end(),
-                       [&](const auto& group) { return group.second <= kInOne * squares.sum(); });
+  std::map<int, double> by_group;
+  for (std::size_t k = 0; k < s.group.size(); ++k) by_group[s.group[k]] += squares(static_cast<Eigen::Index>(k));
+  return std::any_of(by_group.begin(), by_group.end(),
+                     [&](const auto& group) { return group.second > kInOne * squares.sum(); });
+}
+
+/// Whether other groups tell what was told of one. Not where it acts in that one alone, nor where it shows in that one alone
+/// because the placement of the part takes it up in the others.
+bool predictable(const Scheme& s, const Case& c, const std::vector<Told>& told) {
+  return std::none_of(told.begin(), told.end(), [&](const Told& t) {
+    const Matrix& signature = c.explanations.variants[t.variant].signature;
+    Vector shows = Vector::Zero(signature.rows());
+    for (const auto& column : signature.colwise()) shows += beside_free(c.model, column).cwiseAbs2();
+    return in_one_group(s, signature.rowwise().squaredNorm()) || in_one_group(s, shows);
   });
 }
 
