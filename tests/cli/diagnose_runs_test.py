@@ -275,6 +275,20 @@ class DiagnoseRuns(harness.Case):
         self.assertNotIn("W0737", [m["code"] for m in said["messages"]])   # nothing is missing from it
         self.assertEqual(json.loads((self.folder / "now.json").read_text()).get("effects", []), [])
 
+    def test_what_slipped_within_a_run_and_was_mended_before_the_next(self):
+        program = harness.ROOT / "examples/programs/sphere_25_points.dmi"
+        recordings = []
+        for run in (1, 2, 3):
+            slips = ["--with", "probe.step:amplitude_um=5,t0_s=30,direction=x"] if run == 2 else []
+            self.abbe("record", program, "--machine", MACHINE, "--run", run, "-o", f"run{run}.csv", *slips)
+            recordings.append(f"run{run}.csv")
+        found, = self.diagnosis(*recordings)["effects"]
+        at = found["members"].index("probe.step")
+        self.assertEqual((found["new_in_run"][at], found["gone_in_run"][at]), (None, 3))
+        low, high = found["parameters"]["amplitude_um"]["interval95"]
+        self.assertTrue(low < 5 < high, (low, high))
+        self.assertIn("(in run 2)", found["sentence"])
+
     def test_of_many_runs_it_is_found_in_which_something_is_new(self):
         """Nine later runs are judged in eight stretches first; the tenth run begins none of them."""
         program = harness.ROOT / "examples/programs/sphere_25_points.dmi"

@@ -127,10 +127,10 @@ std::vector<Variant> thirds_of_runs(const Variant& whole, const std::vector<Late
   return list;
 }
 
-/// What happens between runs happens at the moment of the change that stands for them.
+/// What is new in a run happens at the moment of the change that stands for it.
 void set_moment(Variant& part, const Effect& effect, const std::vector<LaterRun>& changes) {
   const std::optional<std::size_t> moment = moment_of(effect);
-  if (!moment || !part.change.any()) return;
+  if (!moment || part.change.from == 0) return;
   for (const LaterRun& c : changes)
     if (c.from_run == part.change.first()) part.theta[*moment] = c.between_s(), part.cells[*moment] = c.gap_s;
 }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/diagnose/explanations/parameter_grid.hpp"
+#include "engine/diagnose/explanations/value_called.hpp"
 
 namespace abbe::diagnose {
 
@@ -136,6 +137,18 @@ std::vector<Variant> with_changes(std::vector<Variant> list, const Effect& effec
     for (std::size_t j = k + 1; j < ends.size(); ++j) came_and_went(ends[k], ends[j]);
   for (std::size_t k = 0; k + 1 < later.size() && later.size() < kMostSingle; ++k)
     came_and_went(later[k], later[k + 1]);
+  if (!moment) return list;
+  for (Variant variant : in_all) {
+    if (!counts(effect, effect.parameters[*moment], variant.theta)) continue;
+    const auto next = std::find_if(later.begin(), later.end(),
+                                   [&](const LaterRun& run) { return run.gap_s.low >= variant.theta[*moment]; });
+    if (next == later.end()) continue;
+    Cell& cell = variant.cells[*moment];
+    cell.high = std::min(cell.high, next->gap_s.low);
+    variant.change.until = next->from_run;
+    variant.runs = next->runs;
+    list.push_back(std::move(variant));
+  }
   return list;
 }
 

@@ -29,8 +29,8 @@ std::vector<Variant> with_beginnings(std::vector<Variant>, const Effect&, const 
 
 /// The same from each run but the first on, or from one of each stretch of them: what is new in a run, after
 /// a crash, a mend or a change of the weather; what is gone, a dirty tip that was cleaned; and what came and went. What
-/// happens at a moment happens between the runs then; what goes on in time, or is drawn anew in every visit, is new by
-/// itself.
+/// happens at a moment happens between the runs then, or within one and is gone in the next: a stylus that slipped and was
+/// tightened. What goes on in time, or is drawn anew in every visit, is new by itself.
 std::vector<Variant> with_changes(std::vector<Variant>, const Effect&, const std::vector<LaterRun>&);
 
 }  // namespace abbe::diagnose

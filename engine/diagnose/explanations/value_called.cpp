@@ -23,4 +23,12 @@ std::string word_of(const EffectParameter& parameter, double value, const Record
   return called(parameter, static_cast<int>(value), touches);
 }
 
+bool counts(const Effect& effect, const EffectParameter& parameter, const std::vector<double>& theta) {
+  const auto& [name, word, not_at] = parameter.only_with;
+  for (std::size_t p = 0; p < effect.parameters.size(); ++p)
+    if (const EffectParameter& choice = effect.parameters[p]; choice.name == name)
+      return (word_of(choice, theta[p], {}) == word) != not_at;
+  return true;
+}
+
 }  // namespace abbe::diagnose

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "engine/effects/effect.hpp"
 #include "engine/run/recorded/touch.hpp"
@@ -12,5 +13,7 @@ namespace abbe::diagnose {
 std::string called(const EffectParameter&, int number, const RecordedTouches&);
 /// The word of a choice; a name as above, "all" for 0 of what could have one; "" of a number that is told as such.
 std::string word_of(const EffectParameter&, double value, const RecordedTouches&);
+/// Whether a parameter counts beside the values of the others: a moment where a step is along time.
+bool counts(const Effect&, const EffectParameter&, const std::vector<double>& theta);
 
 }  // namespace abbe::diagnose

@@ -33,26 +33,42 @@ bool in_one_placement(const Effect& effect, const Variant& variant) {
   return false;
 }
 
+namespace {
+
+/// Whether something began at a moment within a run and was over in a later one.
+bool ends_what_began_within_a_run(const Effect& effect, const RunChange& change) {
+  const auto is_moment = [](const EffectParameter& p) { return p.sought == Sought::moment; };
+  return change.from == 0 && change.gone() &&
+      std::any_of(effect.parameters.begin(), effect.parameters.end(), is_moment);
+}
+
+}  // namespace
+
 void share_belief(const Explanation& e, std::vector<Variant>& variants) {
   constexpr double kAny = 0.5, kEachAxis = (1 - kAny) / 3;
-  double constant = 0, changing = 0;
   const auto of_direction = [](const Variant& b) { return b.axis < 0 ? kAny : kEachAxis; };
   std::map<std::string_view, double> in_group;
   for (const int k : e.variants) in_group[variants[k].group] += of_direction(variants[k]);
   const auto weight = [&](const Variant& b) {
     return (b.change.gone() ? 0.5 : 1) * of_direction(b) / in_group[b.group];
   };
-  for (const int k : e.variants) {
-    const Variant& b = variants[k];
-    (b.change.any() ? changing : constant) += weight(b);
-  }
-  const double share = changing == 0  ? 0
-      : constant == 0                 ? 1
-      : e.effect && e.effect->lasting ? kPriorChangeOfLasting
-                                      : kPriorChange;
+  enum Kind { constant, between_runs, within_a_run, kKinds };
+  const auto kind = [&](const Variant& b) {
+    return !b.change.any()                                              ? constant
+        : e.effect && ends_what_began_within_a_run(*e.effect, b.change) ? within_a_run
+                                                                        : between_runs;
+  };
+  double sum[kKinds] = {}, share[kKinds] = {};
+  for (const int k : e.variants) sum[kind(variants[k])] += weight(variants[k]);
+  // Moments within runs are many, beginnings of runs are few: all of either are as likely together.
+  const double changing = e.effect && e.effect->lasting ? kPriorChangeOfLasting : kPriorChange,
+               each = sum[between_runs] > 0 && sum[within_a_run] > 0 ? changing / 2 : changing;
+  share[constant] = 1 - changing, share[between_runs] = share[within_a_run] = each;
+  double there = 0;
+  for (int k = 0; k < kKinds; ++k) there += sum[k] > 0 ? share[k] : 0;
   for (const int k : e.variants) {
     Variant& b = variants[k];
-    b.weight = weight(b) * (b.change.any() ? share / changing : (1 - share) / constant);
+    b.weight = weight(b) * share[kind(b)] / there / sum[kind(b)];
   }
 }
 

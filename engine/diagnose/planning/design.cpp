@@ -32,15 +32,6 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 /// Signal-to-noise: what is larger is not told by evidence but seen by eye.
 constexpr double kSeenByEye = 100;
 
-/// Whether a parameter counts beside the other values.
-bool counts(const Effect& effect, const EffectParameter& parameter, const std::vector<double>& theta) {
-  const auto& [name, word, not_at] = parameter.only_with;
-  for (std::size_t p = 0; p < effect.parameters.size(); ++p)
-    if (const EffectParameter& choice = effect.parameters[p]; choice.name == name)
-      return (word_of(choice, theta[p], {}) == word) != not_at;
-  return true;
-}
-
 /// One form of an effect: a column of a variant.
 struct Form {
   int variant = 0;

@@ -54,6 +54,22 @@ TEST_CASE("what is gone counts half of what is new") {
   CHECK(variants[2].weight == doctest::Approx(0.9));
 }
 
+TEST_CASE("what began at any moment within a run and was mended counts as much as what is new in a run") {
+  std::vector<Variant> variants(6);
+  variants[1].change.from = 2;
+  for (int k = 2; k < 6; ++k) variants[k].change.until = 3;
+  const Effect& step = *find_effect("probe.step");
+  Explanation e;
+  e.variants = {0, 1, 2, 3, 4, 5};
+  share_belief(e, variants);  // of an effect without a moment it is gone in all of the runs before
+  CHECK(variants[1].weight == doctest::Approx(0.1 / 3));
+  e.effect = &step;
+  share_belief(e, variants);
+  CHECK(variants[0].weight == doctest::Approx(0.9));
+  CHECK(variants[1].weight == doctest::Approx(0.05));
+  for (int k = 2; k < 6; ++k) CHECK(variants[k].weight == doctest::Approx(0.05 / 4));
+}
+
 TEST_CASE("columns are the same where none differs anywhere") {
   Matrix a(3, 2);
   a << 1, 2, 3, 4, 5, 6;

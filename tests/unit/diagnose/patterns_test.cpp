@@ -9,6 +9,7 @@
 #include "engine/diagnose/explanations/catalogue.hpp"
 #include "engine/diagnose/explanations/patterns/patterns.hpp"
 #include "engine/diagnose/model/evidence.hpp"
+#include "engine/effects/effect.hpp"
 #include "tests/unit/diagnose/scattered.hpp"
 
 using namespace abbe;
@@ -261,12 +262,20 @@ TEST_CASE("many runs make no more variants than few") {
   std::iota(rows.begin(), rows.end(), 0);
   const Explanations all = explanations_without_readings(t, rows);
   std::set<std::pair<int, int>> fresh, gone, passing;
-  for (const Variant& b : all.variants)
-    if (b.change.any())
+  int at_any_time = 0, over_in_the_next_run = 0;
+  for (const Variant& b : all.variants) {
+    const Effect* effect = all.list[static_cast<std::size_t>(b.explanation)].effect;
+    const bool from_a_moment = effect && moment_of(*effect) && b.change.from == 0;
+    if (from_a_moment)
+      ++(b.change.any() ? over_in_the_next_run : at_any_time);
+    else if (b.change.any())
       (b.change.until == 0 ? fresh : b.change.from == 0 ? gone : passing).emplace(b.change.from, b.change.until);
+  }
   CHECK(fresh.size() == 8);
   CHECK(gone.size() == 4);
   CHECK(passing.size() == 3);
+  CHECK(over_in_the_next_run > 0);
+  CHECK(over_in_the_next_run <= at_any_time);
   for (const Explanation& e : all.list)
     if (e.factor == Factor::run || e.factor == Factor::feature)
       for (const int b : e.variants) CHECK(all.variants[static_cast<std::size_t>(b)].signature.cols() <= 18 * 32);
