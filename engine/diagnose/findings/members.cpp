@@ -165,7 +165,7 @@ void take_in_runner_up(const Case& c, const EvidenceSearch& first, const Diagnos
 }
 
 std::vector<DiagnosedMember> members_of(const Case& c, const SearchResult& result, std::size_t k,
-                                        const DiagnosedEffect& told) {
+                                        DiagnosedEffect& told) {
   const Finding& f = result.findings[k];
   const double all = weight_of_all(c.explanations, f);
   std::vector<DiagnosedMember> out;
@@ -178,6 +178,7 @@ std::vector<DiagnosedMember> members_of(const Case& c, const SearchResult& resul
       FoundSize size = estimate_size(c, result, k, m);
       out.back().parameters = std::move(size.parameters);
       out.back().largest_um = size.largest_um;
+      told.change[out.size() - 1] = size.change;
     }
   }
   return out;

@@ -33,8 +33,7 @@ double belief_in_first(const Explanations&, const Finding&);
 /// So many members of a set are told with a size.
 inline constexpr std::size_t kSized = 5;
 
-/// The members of the set of a finding, the first as it was told.
-std::vector<DiagnosedMember> members_of(const Case&, const SearchResult&, std::size_t finding,
-                                        const DiagnosedEffect& told);
+/// The members of the set of a finding, the first as it was told. The changes told become those of what has the sizes.
+std::vector<DiagnosedMember> members_of(const Case&, const SearchResult&, std::size_t finding, DiagnosedEffect& told);
 
 }  // namespace abbe::diagnose

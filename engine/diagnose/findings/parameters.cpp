@@ -156,6 +156,7 @@ class Estimator {
     for (const EffectParameter& p : explanation_.effect->parameters) grids_.push_back(grid_of(p, c.touches));
   }
 
+  const Variant& likeliest() const { return variants_[likeliest_].variant; }
   /// What the likeliest variant does at the touch where it does most. Draws have no parameters: they are
   /// taken at the spread that is told.
   double largest_um() const {
@@ -424,7 +425,14 @@ class Estimator {
 
 FoundSize estimate_size(const Case& c, const SearchResult& result, std::size_t finding, std::optional<int> member) {
   const Estimator estimator(c, result, finding, member.value_or(result.findings[finding].explanation));
-  return {estimator.all(), estimator.largest_um()};
+  const Variant& found = c.explanations.variants[result.findings[finding].variant];
+  return {estimator.all(), estimator.largest_um(), change_of(estimator.likeliest(), found)};
+}
+
+RunChange change_of(const Variant& variant, const Variant& found) {
+  const bool holds = variant.change.is_like(found.change) && variant.runs.low <= found.runs.low &&
+      found.runs.high <= variant.runs.high;
+  return holds ? found.change : variant.change;
 }
 
 }  // namespace abbe::diagnose

@@ -28,14 +28,6 @@ namespace {
 /// One recording in so many has a change of the scatter.
 constexpr double kPriorScatter = 0.01;
 
-/// What of a variant changes between runs. Where it stands for a stretch of runs that holds the one of the
-/// finding, it is that.
-RunChange change_of(const Variant& variant, const Variant& found) {
-  const bool holds = variant.change.is_like(found.change) && variant.runs.low <= found.runs.low &&
-      found.runs.high <= variant.runs.high;
-  return holds ? found.change : variant.change;
-}
-
 /// Whether a tip that showed what is gone touched anything since. A head that stands elsewhere shows nothing of it.
 bool was_looked_for(const Case& c, const Variant& gone) {
   std::set<int> before, since;

@@ -71,8 +71,10 @@ TEST_CASE("a member is believed by its share of the set, and told with a size of
   CHECK(belief_in_first(of.c.explanations, of.result.findings[0]) == doctest::Approx(0.45));
   DiagnosedEffect told;
   told.probability = 0.5;  // doubted: less than the 0.9 of the set
+  told.change.resize(3);
   told.parameters = {{.name = "amplitude_um", .unit = "um", .value = 1.2, .u = 0.1}};
   told.largest_um = 1.2;
+  for (const int b : of.c.explanations.list[1].variants) of.c.explanations.variants[b].change.from = 2;
   const std::vector<DiagnosedMember> members = members_of(of.c, of.result, 0, told);
   REQUIRE(members.size() == 3);
   CHECK(members[0].probability == doctest::Approx(0.25));
@@ -81,6 +83,8 @@ TEST_CASE("a member is believed by its share of the set, and told with a size of
   CHECK(members[0].parameters.at(0).name == "amplitude_um");
   CHECK(members[1].parameters.at(0).name == "scale_um_per_m");
   CHECK(members[2].parameters.at(0).unit == "urad");
+  CHECK(told.change[1].from == 2);  // what has that size is new then
+  CHECK_FALSE(told.change[2].any());
 }
 
 TEST_CASE("a runner-up that fits and predicts as well joins the set") {
