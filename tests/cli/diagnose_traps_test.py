@@ -123,6 +123,19 @@ class Traps(harness.Case):
         self.assertEqual(said["verdict"], "no_mismatch")
         self.assertLess(said["p_value"], 0.03)
 
+    def test_axes_that_do_the_same_to_these_touches_are_both_told(self):
+        """Every touch is at 45 degrees between x and y, or along z."""
+        h = math.sqrt(0.5)
+        directions = ((h, h, 0), (-h, h, 0), (-h, -h, 0), (h, -h, 0), (0, 0, 1))
+        centres = [(300 + 200 * i, 200 + 150 * j, -500 + 100 * ((i + j) % 2)) for i in range(3) for j in range(3)]
+        program = self.write("diagonal.dmi", harness.balls(centres, directions))
+        self.abbe("record", program, "--machine", MACHINE, "--seed", 4, "-o", "diagonal.csv", "--with", "machine.backlash:backlash_um=5,axis=y")
+        found = self.diagnosis("diagonal.csv")["effects"][0]
+        at = found["members"].index("machine.backlash")
+        axis = (found["by_member"][at]["parameters"] if found["by_member"] else found["parameters"])["axis"]
+        self.assertEqual((axis["value"], [other["value"] for other in axis["others"]]), ("x", ["y"]))
+        self.assertAlmostEqual(axis["probability"], axis["others"][0]["probability"])
+
     def test_what_cannot_be_told_apart_cannot_beside_another_effect_either(self):
         """One stylus, one orientation, one placement: whatever jumps, all later touches do."""
         path = self.write("plate.csv", plate(lambda t, time_s: (40e-6 * (t[0] - 300), 5e-3 * (time_s > 400), 0), seed=15))

@@ -240,16 +240,36 @@ class Estimator {
     }
   }
 
-  /// Which other values of its list fit nearly as well.
+  /// Which other values of its list fit nearly as well, or do the same to these touches.
   void add_others(std::size_t p, double told_value, DiagnosedParameter& out) const {
     constexpr double kOutOfQuestion = 0.05;
-    for (const auto& [value, belief] : listed_[p])
+    std::map<double, double> beliefs = listed_[p];
+    const std::vector<double> same = doing_the_same(p);
+    const double each = beliefs[told_value] / double(1 + same.size());
+    beliefs[told_value] = each;
+    for (const double value : same) beliefs[value] += each;
+    for (const auto& [value, belief] : beliefs)
       if (value == told_value)
         out.probability = belief;
       else if (belief >= kOutOfQuestion)
         out.others.push_back({in_words(explanation_.effect->parameters[p], value), belief});
     std::stable_sort(out.others.begin(), out.others.end(),
                      [](const OtherValue& a, const OtherValue& b) { return a.probability > b.probability; });
+  }
+
+  /// The other values of a list, but for all of them together, with which the likeliest variant would be the same: of such
+  /// variants the search keeps the first.
+  std::vector<double> doing_the_same(std::size_t p) const {
+    const Variant& likeliest = variants_[likeliest_].variant;
+    std::vector<double> out;
+    Variant at = likeliest;
+    for (const auto& [value, cell, share] : grids_[p].tried) {
+      at.theta[p] = value;
+      if (value != likeliest.theta[p] && word_of(explanation_.effect->parameters[p], value, touches_) != "all" &&
+          same_columns(variant_like(at, *explanation_.effect, touches_, rows_).signature, likeliest.signature))
+        out.push_back(value);
+    }
+    return out;
   }
 
   /// The belief in each value of each parameter among the variants that change between runs as the told one does.
