@@ -46,28 +46,58 @@ void continue_clock_of(const Recording& before, Recording& next, const std::stri
         fmt::format("its times overlap those of the recording ahead of it; they count as {:.0f} s later", *later_s));
 }
 
-/// Whoever names files by a pattern has the tenth day ahead of the second. Where no clock begins anew, the clocks tell their
-/// order; a clock that falls by more than half a day within one has passed midnight, and the order is that which was given.
-std::vector<std::size_t> in_order_of_clocks(const std::vector<Recording>& files) {
+/// The order in which files were measured, and what tells it.
+struct Order {
+  std::vector<std::size_t> files;
+  std::string told_by = {};  ///< where it is not that which was given
+};
+
+Order given_order(std::size_t files) {
+  Order out{std::vector<std::size_t>(files)};
+  std::iota(out.files.begin(), out.files.end(), 0);
+  return out;
+}
+
+/// By the lowest numbers of their runs, where each has runs of its own.
+Order order_of_runs(const std::vector<Recording>& files) {
+  std::vector<std::pair<int, int>> runs;
+  for (const Recording& file : files) {
+    const auto [first, last] = std::minmax_element(
+        file.rows.begin(), file.rows.end(), [](const RecordingRow& a, const RecordingRow& b) { return a.run < b.run; });
+    runs.emplace_back(first->run, last->run);
+  }
+  Order out = given_order(files.size());
+  std::sort(out.files.begin(), out.files.end(), [&](std::size_t a, std::size_t b) { return runs[a] < runs[b]; });
+  for (std::size_t k = 1; k < out.files.size(); ++k)
+    if (runs[out.files[k]].first <= runs[out.files[k - 1]].second) return given_order(files.size());
+  out.told_by = "the numbers of their runs";
+  return out;
+}
+
+/// Whoever names files by a pattern has the tenth day ahead of the second, and 'after' ahead of 'before'. Where no clock begins
+/// anew, the clocks tell their order, else the runs; a clock that falls by more than half a day within one has passed midnight,
+/// and the order is that which was given.
+Order order_of(const std::vector<Recording>& files) {
   constexpr double kDay_s = 24 * 3600;
-  std::vector<std::size_t> given(files.size());
-  std::iota(given.begin(), given.end(), 0);
   std::vector<TimeSpan> spans;
   for (const Recording& file : files) {
     const std::optional<TimeSpan> span = time_span(file.rows);
-    if (!span) return given;
+    if (!span) return order_of_runs(files);
     spans.push_back(*span);
   }
-  std::vector<std::size_t> order = given;
+  Order out = given_order(files.size());
+  std::vector<std::size_t>& order = out.files;
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return spans[a].first_s < spans[b].first_s; });
   for (std::size_t k = 1; k < order.size(); ++k)
-    if (spans[order[k]].first_s <= spans[order[k - 1]].last_s) return given;
+    if (spans[order[k]].first_s <= spans[order[k - 1]].last_s) return order_of_runs(files);
   bool past_midnight = false;
   for (std::size_t k = 1; k < spans.size(); ++k)
     past_midnight = past_midnight || spans[k].first_s < spans[k - 1].last_s - kDay_s / 2;
   const bool within_a_day = spans[order.back()].last_s - spans[order.front()].first_s <= kDay_s;
-  return past_midnight && within_a_day ? given : order;
+  if (past_midnight && within_a_day) return given_order(files.size());
+  out.told_by = "their clocks";
+  return out;
 }
 
 /// A number that counts on from those of the files ahead of it.
@@ -221,12 +251,13 @@ Recording joined(const std::vector<SourceFile>& files, Positions positions, std:
     read.push_back(std::move(next));
   }
   doubt_qualifications(read, files);
-  const std::vector<std::size_t> order = in_order_of_clocks(read);
+  const auto [order, told_by] = order_of(read);
   if (!std::is_sorted(order.begin(), order.end()))
     messages.push_back(diagnostic(
         Code::N0708,
-        "by their clocks the files are given in another order than they were measured in; they count in that of their clocks",
-        "if each clock began anew, as that of a day does, write true times into time_s"));
+        fmt::format("by {0} the files are given in another order than they were measured in; they count in that of {0}",
+                    told_by),
+        "if they were measured in the order given, write true times into time_s, and number the runs by them"));
   const std::string& first = files[order.front()].name();
   Recording all = std::move(read[order.front()]);
   for (const SourceFile& file : files) all.files.push_back(file.name());

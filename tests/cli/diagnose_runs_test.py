@@ -90,6 +90,18 @@ class DiagnoseRuns(harness.Case):
         for files in ((first, second, third), (evening, morning), anew):
             self.assertNotIn(told, self.said_of(*files))
 
+    def test_files_whose_clocks_began_anew_count_in_the_order_of_their_runs(self):
+        """As after*.csv before*.csv gives them: a step in the second run had been there before the first."""
+        program = harness.ROOT / "examples/programs/sphere_25_points.dmi"
+        self.abbe("record", program, "--machine", MACHINE, "--run", 1, "-o", "before.csv")
+        self.abbe("record", program, "--machine", MACHINE, "--run", 2, "-o", "after.csv", "--with", "probe.step:amplitude_um=5,t0_s=30,direction=x")
+        given = self.abbe("diagnose", "after.csv", "before.csv", "--machine", MACHINE, "--format", "json")
+        self.assertIn("by the numbers of their runs the files are given in another order", given.stderr)
+        right = json.loads(self.abbe("diagnose", "before.csv", "after.csv", "--machine", MACHINE, "--format", "json").stdout)
+        said = json.loads(given.stdout)
+        for key in ("effects", "p_value", "location"):
+            self.assertEqual(said[key], right[key], key)
+
     def test_what_two_files_have_in_common_counts_once(self):
         """Two exports that overlap, the second day in both: its clock was taken for one that began anew, and all of it for repeats."""
         first, second, third = (self.changed(f, lambda row, day=day: row | {"run": str(day)}, f"numbered{day}.csv") for day, f in enumerate(self.days(), 1))
