@@ -11,6 +11,7 @@
 
 #include "engine/diagnose/findings/belief.hpp"
 #include "engine/diagnose/findings/caveats.hpp"
+#include "engine/diagnose/findings/displacements.hpp"
 #include "engine/diagnose/findings/locate.hpp"
 #include "engine/diagnose/model/precision.hpp"
 #include "engine/diagnose/planning/question.hpp"
@@ -41,17 +42,32 @@ bool one_after_the_other(const Case& c) {
   return done.size() > 1;
 }
 
-/// Whether the part stood in places of the machine that are far from one another, or was turned.
-bool stood_elsewhere(const Case& c) {
-  constexpr double kFar_mm = 50;
-  const double alike = std::cos(20 * kDegree);
+/// Whether a touch came again in another placement that is unlike its first.
+template <class Unlike>
+bool placed_again(const Case& c, const Unlike& unlike) {
   std::map<std::pair<int, int>, const TouchScene*> first;  // by feature and number of the touch
   return std::any_of(c.rows.begin(), c.rows.end(), [&](int row) {
     const RecordedTouch& t = c.touches.touches[row];
     const TouchScene& s = t.scene;
     const TouchScene& before = *first.try_emplace({s.feature, c.recording->rows[t.row].touch}, &s).first->second;
-    return s.setup != before.setup && (norm(s.point - before.point) > kFar_mm || dot(s.normal, before.normal) < alike);
+    return s.setup != before.setup && unlike(s, before);
   });
+}
+bool turned(const TouchScene& a, const TouchScene& b) { return dot(a.normal, b.normal) < std::cos(20 * kDegree); }
+/// In places of the machine that are far from one another, or turned.
+bool elsewhere(const TouchScene& a, const TouchScene& b) {
+  constexpr double kFar_mm = 50;
+  return norm(a.point - b.point) > kFar_mm || turned(a, b);
+}
+
+bool has_three_speeds(const Case& c) {
+  constexpr double kAnother = 1.1;
+  std::vector<double> speeds;
+  for (const int row : c.rows) speeds.push_back(c.touches.touches[row].scene.speed_mm_s);
+  std::sort(speeds.begin(), speeds.end());
+  const auto above = [&](double speed) { return std::upper_bound(speeds.begin(), speeds.end(), kAnother * speed); };
+  const auto second = above(speeds.front());
+  return second != speeds.end() && above(*second) != speeds.end();
 }
 
 /// A wrong figure of a certificate makes its feature stray by itself.
@@ -71,10 +87,12 @@ std::string to_follow_a_pattern(const Case& c, Factor factor) {
     case Factor::time:
       return "Repeat the same touches in another order: what follows the clock comes at the same time, what follows the place moves with it.";
     case Factor::position:
-      return stood_elsewhere(c)
+      return placed_again(c, elsewhere)
           ? "The part stood in several places, and they do not tell whether this is the machine's or the part's: repeat at another height, and with the part in another orientation, each in a setup of its own."
           : "Repeat with the part moved: what stays where it was in the machine is the machine's, what moves with the part is the part's. Give each placement a setup of its own.";
     case Factor::direction:
+      if (placed_again(c, turned))
+        return "The part stood turned in one of its placements, which does not tell yet: repeat with another stylus ball, too. What goes with the ball is the tip's, what stays is the probe's or the machine's.";
       return "Repeat with the part turned and with another stylus ball: what turns with the part is its form, what goes with the ball is the tip's, what stays is the probe's or the machine's. Give each placement a setup of its own.";
     case Factor::head:
       return "Repeat every orientation after a visit elsewhere: what comes back is the head's geometry, what does not is its indexing. Qualify anew for what is left.";
@@ -87,6 +105,8 @@ std::string to_follow_a_pattern(const Case& c, Factor factor) {
     case Factor::temperature:
       return "Repeat at another temperature, the part soaked: what follows the temperature grows in proportion to it.";
     case Factor::speed:
+      if (has_three_speeds(c))
+        return "Repeat at another acceleration: a delay grows in proportion to the speed and does not care for it, vibration does.";
       return "Repeat at a third speed and at another acceleration: a delay grows in proportion to the speed, vibration with the acceleration.";
   }
   return "";
@@ -100,6 +120,45 @@ std::string to_let_vary(const Case& c, unsigned missing, std::string_view first_
   if (absent.empty()) return fmt::format("{} {} vary", first_word_let, fmt::join(constant, ", "));
   return fmt::format("{} {}, and let {}{}{} vary", first_word_log, fmt::join(absent, ", "),
                      absent.size() == 1 ? "it" : "them", constant.empty() ? "" : " and ", fmt::join(constant, ", "));
+}
+
+/// The pattern of one feature that was touched in other runs, too, and did not stray in them: it is no property of the part.
+std::string to_look_at_the_feature(const Case& c, const SearchResult& result) {
+  constexpr double kStrays = 3;  // times as far as in the other runs
+  if (c.explanations.list[result.other->explanation].factor != Factor::feature) return "";
+  const Vector moved = displacements(c, signatures_of(c, result)).back();
+  struct Strays {
+    double squares = 0, touches = 0;
+    double rms() const { return std::sqrt(squares / touches); }
+  };
+  std::map<int, std::map<int, Strays>> of;  // by feature and run
+  for (Eigen::Index k = 0; k < moved.size(); ++k) {
+    Strays& at = of[c.scene(k).feature][c.scene(k).run];
+    at.squares += moved(k) * moved(k), at.touches += 1;
+  }
+  const auto in_all = [](const auto& feature) {
+    double squares = 0;
+    for (const auto& [run, at] : feature.second) squares += at.squares;
+    return squares;
+  };
+  const auto& [feature, runs] =
+      *std::max_element(of.begin(), of.end(), [&](const auto& a, const auto& b) { return in_all(a) < in_all(b); });
+  double most = 0;
+  for (const auto& [run, at] : runs) most = std::max(most, at.rms());
+  std::vector<int> strays;
+  for (const auto& [run, at] : runs)
+    if (kStrays * at.rms() > most) strays.push_back(run);
+  if (strays.size() == runs.size()) return "";
+  return fmt::format(
+      "{} strays in run {} alone, so that it is no property of the part: look for dirt on it, and for a stylus that was loose then.",
+      c.touches.features[feature], fmt::join(strays, ", "));
+}
+
+/// What makes the pattern that was found beside the names, or without any.
+std::string to_follow_the_pattern(const Case& c, const SearchResult& result) {
+  const Factor factor = c.explanations.list[result.other->explanation].factor;
+  if (std::string look = to_look_at_the_feature(c, result); !look.empty()) return look;
+  return to_check_certificate(c, factor) + to_follow_a_pattern(c, factor);
 }
 
 /// What the names that were found miss before they can be judged.
@@ -177,10 +236,7 @@ bool worth_a_round(const std::vector<NextMeasurement>& next) {
 /// What to do beside a measurement of the menu, or where there is none that is worth its time.
 std::string besides_sizes(const Case& c, const SearchResult& result, const Diagnosis& told) {
   if (worth_a_round(told.next_measurement)) return to_follow_what_is_left(c, result, 0);
-  if (result.other) {
-    const Factor factor = c.explanations.list[result.other->explanation].factor;
-    return to_check_certificate(c, factor) + to_follow_a_pattern(c, factor);
-  }
+  if (result.other) return to_follow_the_pattern(c, result);
   std::vector<std::string> sentences = to_log(c, result);
   if (std::string left = to_follow_what_is_left(c, result, missed_by_names(c, result)); !left.empty())
     sentences.push_back(std::move(left));
@@ -311,13 +367,36 @@ std::string to_begin_at_the_start(const Case& c, const SearchResult& result) {
   return "";
 }
 
+/// What the machine file has and these touches do not show may be gone or not: a step in front of all of them, which moves them
+/// alike. That nothing was found says nothing of it.
+std::string to_see_what_the_file_has(const Case& c, const SearchResult& result) {
+  constexpr double kShows = 3;  // signal-to-noise
+  if (!result.findings.empty() || result.other) return "";
+  std::set<std::string> hidden;
+  for (const EffectSetting& of_file : c.machine->effects) {
+    if (find_effect(of_file.name)->draws > 0) continue;
+    const EffectSet alone({of_file}, EffectUse::left_in, c.machine->name);
+    Vector does(static_cast<Eigen::Index>(c.rows.size()));
+    for (std::size_t k = 0; k < c.rows.size(); ++k) {
+      const RecordedTouch& touch = c.touches.touches[c.rows[k]];
+      does(static_cast<Eigen::Index>(k)) = kUmPerMm * dot(touch.scene.normal, alone.estimate(touch));
+    }
+    if (beside_free(c.model, does).cwiseQuotient(c.model.noise_um).norm() < kShows) hidden.insert(of_file.name);
+  }
+  if (hidden.empty()) return "";
+  return fmt::format(
+      "These touches cannot tell whether {} of the machine file {} still there: the placement of the part, its size or the qualification takes up what that does.",
+      fmt::join(hidden, " and "), hidden.size() == 1 ? "is" : "are");
+}
+
 }  // namespace
 
 std::string otherwise(const Case& c, const SearchResult& result, const Diagnosis& told) {
   std::vector<std::string> sentences = {
-      to_know_qualifications(c, result), to_number_runs(c, result, told), to_take_out_patterns(c, result),
-      to_begin_at_the_start(c, result),  to_part_runs(c, result),         to_know_sizes(c, result),
-      to_know_the_material(c, result),   besides_sizes(c, result, told),  to_record_digits(c, told)};
+      to_know_qualifications(c, result), to_number_runs(c, result, told),     to_take_out_patterns(c, result),
+      to_begin_at_the_start(c, result),  to_see_what_the_file_has(c, result), to_part_runs(c, result),
+      to_know_sizes(c, result),          to_know_the_material(c, result),     besides_sizes(c, result, told),
+      to_record_digits(c, told)};
   std::erase(sentences, "");
   return fmt::format("{}", fmt::join(sentences, " "));
 }

@@ -307,7 +307,7 @@ std::string_view where_it_scatters(const DiagnosedEffect& e) {
   if (group->word == "one setup")
     return "See how the part was held in that setup: what is loose gives way differently each time.";
   if (group->word == "one run" || group->word == "a stretch of time")
-    return "Find out what was different then (traffic, a compressor, people at the machine, draught), and measure again what was touched then.";
+    return "Find out what was different then (a stylus that was loose, traffic, a compressor, people at the machine, draught), and measure again what was touched then.";
   return "";
 }
 

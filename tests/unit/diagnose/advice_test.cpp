@@ -18,18 +18,21 @@ struct LeavesMore : Planted {
     find({"probe.tip_radius"});
     result.adequacy = kInadequate / 2;
     c.baseline.surfaces = Surfaces::calibrated;
+    for (int i = 0; i < count(); ++i) recording.rows[i].touch = i + 1;
   }
   void miss(const char* effect, Covariate what, bool logged) {
     const auto missing = static_cast<unsigned>(what);
     c.explanations.unjudged.push_back({find_effect(effect), missing, logged ? missing : 0});
     if (!logged) c.touches.known &= ~missing;
   }
-  /// Instead of the tip's radius: a pattern over a factor.
+  /// Instead of the tip's radius: a pattern over a factor, alike at all touches.
   void find_pattern_over(Factor factor) {
     result.findings.clear();
     c.explanations.list.emplace_back().factor = factor;
     result.other = Finding{};
     result.other->explanation = static_cast<int>(c.explanations.list.size()) - 1;
+    result.other->variant = static_cast<int>(c.explanations.variants.size());
+    c.explanations.variants.emplace_back().signature = Matrix::Ones(c.model.y.size(), 1);
   }
   std::string says(double believed = 1) const {
     Diagnosis told;
@@ -88,6 +91,52 @@ TEST_CASE("a calibrated feature that strays may have a wrong figure in its certi
   CHECK(p.says().starts_with("Check what is given of these features first"));
   p.c.baseline.surfaces = Surfaces::unknown;
   CHECK_FALSE(p.says().starts_with("Check"));
+}
+
+TEST_CASE("a feature that strays in one run alone is no wrong figure of a certificate") {
+  LeavesMore p;
+  p.find_pattern_over(Factor::feature);
+  p.c.touches.features = {"BORE"};
+  Matrix& shape = p.c.explanations.variants.back().signature;
+  for (std::size_t k = 0; k < p.c.rows.size(); ++k) {
+    TouchScene& scene = p.c.touches.touches[p.c.rows[k]].scene;
+    scene.feature = 0, scene.run = 1 + static_cast<int>(k % 3);
+    if (scene.run != 2) shape(static_cast<Eigen::Index>(k)) = 0;
+  }
+  CHECK(p.says().starts_with("BORE strays in run 2 alone, so that it is no property of the part"));
+}
+
+TEST_CASE("what was done already is not advised") {
+  LeavesMore p;
+  p.find_pattern_over(Factor::speed);
+  CHECK(p.says().starts_with("Repeat at a third speed"));
+  for (std::size_t i = 0; i < p.c.touches.touches.size(); ++i)
+    p.c.touches.touches[i].scene.speed_mm_s = 3 + 3 * static_cast<double>(i % 3);
+  CHECK(p.says().starts_with("Repeat at another acceleration"));
+
+  LeavesMore turned;
+  turned.find_pattern_over(Factor::direction);
+  CHECK(turned.says().starts_with("Repeat with the part turned"));
+  turned.scene(0).setup = 1, turned.scene(1).setup = 2;
+  turned.scene(1).feature = turned.scene(0).feature, turned.recording.rows[1].touch = 1;
+  turned.scene(0).normal = {1, 0, 0}, turned.scene(1).normal = {0, 1, 0};
+  CHECK(turned.says().starts_with("The part stood turned in one of its placements"));
+}
+
+TEST_CASE("what the machine file has and these touches do not show is told where nothing was found") {
+  LeavesMore p;
+  EffectSetting step;
+  step.name = "machine.step";
+  step.parameters["amplitude_um"] = {5, 0.1, {}}, step.parameters["t0_s"] = {1e6, 0, {}};
+  p.machine.effects = {step};
+  const std::string told = "These touches cannot tell whether machine.step of the machine file is still there";
+  CHECK_FALSE(p.says().starts_with(told));
+  p.result.findings.clear();
+  CHECK(p.says().starts_with(told));
+  p.machine.effects[0].parameters["t0_s"] = {0, 0, {}};  // there in all of them, as another placement would be
+  CHECK(p.says().starts_with(told));
+  p.machine.effects[0].parameters["t0_s"] = {p.scene(p.count() / 2).time_s, 0, {}};
+  CHECK_FALSE(p.says().starts_with(told));
 }
 
 TEST_CASE("where a placement is odd the part may have been warm in it") {
