@@ -62,6 +62,7 @@ Order given_order(std::size_t files) {
 Order order_of_runs(const std::vector<Recording>& files) {
   std::vector<std::pair<int, int>> runs;
   for (const Recording& file : files) {
+    if (file.rows.empty()) return given_order(files.size());  // all of it stands in other files too
     const auto [first, last] = std::minmax_element(
         file.rows.begin(), file.rows.end(), [](const RecordingRow& a, const RecordingRow& b) { return a.run < b.run; });
     runs.emplace_back(first->run, last->run);

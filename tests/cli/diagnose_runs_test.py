@@ -7,6 +7,7 @@ import harness
 
 PROGRAM = harness.ROOT / "examples/iso10360/form_and_size_5x25.dmi"   # one sphere, five orientations of the head, 125 touches
 MACHINE = harness.ROOT / "examples/iso10360/portal-2009.json"
+BALL = harness.ROOT / "examples/programs/sphere_25_points.dmi"
 
 
 class DiagnoseRuns(harness.Case):
@@ -15,6 +16,13 @@ class DiagnoseRuns(harness.Case):
         name = f"run{run}.csv"
         self.abbe("record", PROGRAM if whole else self.sphere(), "--machine", MACHINE, "--run", run, "-o", name, *options)
         return name
+
+    def balls(self, runs, changed):
+        """Recordings of a ball in so many runs; in one of them with what `changed` has for it."""
+        names = [f"run{run}.csv" for run in range(1, runs + 1)]
+        for run, name in enumerate(names, 1):
+            self.abbe("record", BALL, "--machine", MACHINE, "--run", run, "-o", name, *(("--with", changed[run]) if run in changed else ()))
+        return names
 
     def days_later(self, name, days):
         return self.changed(self.folder / name, lambda row: row | {"time_s": str(float(row["time_s"]) + 86400 * days)}, f"day_{days}_{name}")
@@ -67,7 +75,7 @@ class DiagnoseRuns(harness.Case):
 
     def days(self, touches=3):
         """So many touches on each of three days of one clock, numbered by nobody; with three they are too few to be judged, and what is said of files is said first."""
-        program, files = harness.ROOT / "examples/programs/sphere_25_points.dmi", []
+        program, files = BALL, []
         for day in (1, 2, 3):
             self.abbe("record", program, "--machine", MACHINE, "--run", day, "-o", f"run{day}.csv")
             files.append(self.changed(self.folder / f"run{day}.csv", lambda row: row | {"run": "1", "time_s": str(float(row["time_s"]) + 86400 * day)}
@@ -92,13 +100,10 @@ class DiagnoseRuns(harness.Case):
 
     def test_files_whose_clocks_began_anew_count_in_the_order_of_their_runs(self):
         """As after*.csv before*.csv gives them: a step in the second run had been there before the first."""
-        program = harness.ROOT / "examples/programs/sphere_25_points.dmi"
-        self.abbe("record", program, "--machine", MACHINE, "--run", 1, "-o", "before.csv")
-        self.abbe("record", program, "--machine", MACHINE, "--run", 2, "-o", "after.csv", "--with", "probe.step:amplitude_um=5,t0_s=30,direction=x")
-        given = self.abbe("diagnose", "after.csv", "before.csv", "--machine", MACHINE, "--format", "json")
+        before, after = self.balls(2, {2: "probe.step:amplitude_um=5,t0_s=30,direction=x"})
+        given = self.abbe("diagnose", after, before, "--machine", MACHINE, "--format", "json")
         self.assertIn("by the numbers of their runs the files are given in another order", given.stderr)
-        right = json.loads(self.abbe("diagnose", "before.csv", "after.csv", "--machine", MACHINE, "--format", "json").stdout)
-        said = json.loads(given.stdout)
+        right, said = self.diagnosis(before, after), json.loads(given.stdout)
         for key in ("effects", "p_value", "location"):
             self.assertEqual(said[key], right[key], key)
 
@@ -111,6 +116,9 @@ class DiagnoseRuns(harness.Case):
         self.assertIn("late.csv: 3 of its rows stand in the files ahead of it too", said)
         self.assertNotIn("N0708", said)
         self.assertIn("too few touches to judge a machine by: 9", said)
+        head = second.read_text().removesuffix(body(second))
+        pieces = self.write("pieces.csv", head + body(second).splitlines()[-1] + "\n" + body(third).splitlines()[0] + "\n")   # nothing is left of it
+        self.assertIn("too few touches to judge a machine by: 9", self.said_of(first, second, third, pieces))
 
     def test_one_file_in_another_unit_is_told_by_its_name(self):
         """It was taken for a tip that is 28 mm too small, or for touches beyond the travel."""
@@ -252,12 +260,7 @@ class DiagnoseRuns(harness.Case):
 
     def test_what_is_gone_after_a_run_is_told(self):
         """A tip that was dirty until it was cleaned: no machine file needs it."""
-        program = harness.ROOT / "examples/programs/sphere_25_points.dmi"
-        recordings = []
-        for run in (1, 2, 3, 4):
-            dirty = ["--with", "probe.tip_radius:amplitude_um=4"] if run == 1 else []
-            self.abbe("record", program, "--machine", MACHINE, "--run", run, "-o", f"run{run}.csv", *dirty)
-            recordings.append(f"run{run}.csv")
+        recordings = self.balls(4, {1: "probe.tip_radius:amplitude_um=4"})
         said = self.diagnosis(*recordings, "--model-out", "now.json")
         self.assertEqual(len(said["effects"]), 1, said["effects"])
         found = said["effects"][0]
@@ -269,12 +272,7 @@ class DiagnoseRuns(harness.Case):
 
     def test_what_came_and_went_is_one_thing(self):
         """The machine file was told two effects, one in the place of the other, of a machine that had neither any more."""
-        program = harness.ROOT / "examples/programs/sphere_25_points.dmi"
-        recordings = []
-        for run in (1, 2, 3):
-            dirty = ["--with", "probe.pretravel_lobing:amplitude_um=1.5"] if run == 2 else []
-            self.abbe("record", program, "--machine", MACHINE, "--run", run, "-o", f"run{run}.csv", *dirty)
-            recordings.append(f"run{run}.csv")
+        recordings = self.balls(3, {2: "probe.pretravel_lobing:amplitude_um=1.5"})
         said = self.diagnosis(*recordings, "--model-out", "now.json")
         self.assertEqual([(e["members"], e["new_in_run"], e["gone_in_run"]) for e in said["effects"]],
                          [(["probe.pretravel_lobing"], [2], [3])])
@@ -288,12 +286,7 @@ class DiagnoseRuns(harness.Case):
         self.assertEqual(json.loads((self.folder / "now.json").read_text()).get("effects", []), [])
 
     def test_what_slipped_within_a_run_and_was_mended_before_the_next(self):
-        program = harness.ROOT / "examples/programs/sphere_25_points.dmi"
-        recordings = []
-        for run in (1, 2, 3):
-            slips = ["--with", "probe.step:amplitude_um=5,t0_s=30,direction=x"] if run == 2 else []
-            self.abbe("record", program, "--machine", MACHINE, "--run", run, "-o", f"run{run}.csv", *slips)
-            recordings.append(f"run{run}.csv")
+        recordings = self.balls(3, {2: "probe.step:amplitude_um=5,t0_s=30,direction=x"})
         found, = self.diagnosis(*recordings)["effects"]
         at = found["members"].index("probe.step")
         self.assertEqual((found["new_in_run"][at], found["gone_in_run"][at]), (None, 3))
@@ -303,12 +296,7 @@ class DiagnoseRuns(harness.Case):
 
     def test_of_many_runs_it_is_found_in_which_something_is_new(self):
         """Nine later runs are judged in eight stretches first; the tenth run begins none of them."""
-        program = harness.ROOT / "examples/programs/sphere_25_points.dmi"
-        recordings = []
-        for run in range(1, 11):
-            worn = ("--with", "probe.tip_radius:amplitude_um=8") if run == 10 else ()
-            self.abbe("record", program, "--machine", MACHINE, "--run", run, "-o", f"run{run}.csv", *worn)
-            recordings.append(f"run{run}.csv")
+        recordings = self.balls(10, {10: "probe.tip_radius:amplitude_um=8"})
         said = self.diagnosis(*recordings)
         self.assertIn("probe.tip_radius", said["effects"][0]["members"])
         self.assertEqual(set(said["effects"][0]["new_in_run"]), {10})
