@@ -132,7 +132,7 @@ void set_moment(Variant& part, const Effect& effect, const std::vector<LaterRun>
   const std::optional<std::size_t> moment = moment_of(effect);
   if (!moment || part.change.from == 0) return;
   for (const LaterRun& c : changes)
-    if (c.from_run == part.change.first()) part.theta[*moment] = c.between_s(), part.cells[*moment] = c.gap_s;
+    if (c.from_run == part.change.from) part.theta[*moment] = c.between_s(), part.cells[*moment] = c.gap_s;
 }
 
 /// The cell in thirds along every parameter that it has an extent in, and along its runs.

@@ -33,17 +33,6 @@ bool in_one_placement(const Effect& effect, const Variant& variant) {
   return false;
 }
 
-namespace {
-
-/// Whether something began at a moment within a run and was over in a later one.
-bool ends_what_began_within_a_run(const Effect& effect, const RunChange& change) {
-  const auto is_moment = [](const EffectParameter& p) { return p.sought == Sought::moment; };
-  return change.from == 0 && change.gone() &&
-      std::any_of(effect.parameters.begin(), effect.parameters.end(), is_moment);
-}
-
-}  // namespace
-
 void share_belief(const Explanation& e, std::vector<Variant>& variants) {
   constexpr double kAny = 0.5, kEachAxis = (1 - kAny) / 3;
   const auto of_direction = [](const Variant& b) { return b.axis < 0 ? kAny : kEachAxis; };
@@ -53,10 +42,9 @@ void share_belief(const Explanation& e, std::vector<Variant>& variants) {
     return (b.change.gone() ? 0.5 : 1) * of_direction(b) / in_group[b.group];
   };
   enum Kind { constant, between_runs, within_a_run, kKinds };
+  const bool at_a_moment = e.effect && moment_of(*e.effect);
   const auto kind = [&](const Variant& b) {
-    return !b.change.any()                                              ? constant
-        : e.effect && ends_what_began_within_a_run(*e.effect, b.change) ? within_a_run
-                                                                        : between_runs;
+    return !b.change.any() ? constant : at_a_moment && b.change.from == 0 ? within_a_run : between_runs;
   };
   double sum[kKinds] = {}, share[kKinds] = {};
   for (const int k : e.variants) sum[kind(variants[k])] += weight(variants[k]);

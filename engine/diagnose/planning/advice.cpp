@@ -328,6 +328,17 @@ std::string to_number_runs(const Case& c, const SearchResult& result, const Diag
   return "All files have the same run, and what is new in a file, or gone, is looked for from run to run: give each file a run of its own in the column run, which costs no measurement.";
 }
 
+/// What effects of the machine file do along the normal of each row, um.
+Vector done_by(const Case& c, const std::vector<EffectSetting>& effects) {
+  const EffectSet they(effects, EffectUse::left_in, c.machine->name);
+  Vector out(static_cast<Eigen::Index>(c.rows.size()));
+  for (std::size_t k = 0; k < c.rows.size(); ++k) {
+    const RecordedTouch& touch = c.touches.touches[c.rows[k]];
+    out(static_cast<Eigen::Index>(k)) = kUmPerMm * dot(touch.scene.normal, they.estimate(touch));
+  }
+  return out;
+}
+
 /// No recording is searched for the patterns of the machine file that no effect makes: of one that was mended its opposite
 /// is found, and some name looks like that. It explains as well where it leaves no more than the sizes that are free in what was
 /// found take up by chance: chi-squared, and two of its standard deviations.
@@ -338,12 +349,8 @@ std::string to_take_out_patterns(const Case& c, const SearchResult& result) {
     if (of_file.name.starts_with("empirical.")) patterns.push_back(of_file), names.insert(of_file.name);
   const std::vector<const Matrix*> found = signatures_of(c, result);
   if (patterns.empty() || found.empty()) return "";
-  const EffectSet they(patterns, EffectUse::left_in, c.machine->name);
   LinearModel without = c.model;
-  for (std::size_t k = 0; k < c.rows.size(); ++k) {
-    const RecordedTouch& touch = c.touches.touches[c.rows[k]];
-    without.y(static_cast<Eigen::Index>(k)) += kUmPerMm * dot(touch.scene.normal, they.estimate(touch));
-  }
+  without.y += done_by(c, patterns);
   const LinearModel beside_found = with_free(c.model, found);
   const auto left = [&](const LinearModel& m) {
     const Precision::Seen y = Precision(m, result.hyper).y();
@@ -375,13 +382,8 @@ std::string to_see_what_the_file_has(const Case& c, const SearchResult& result) 
   std::set<std::string> hidden;
   for (const EffectSetting& of_file : c.machine->effects) {
     if (find_effect(of_file.name)->draws > 0) continue;
-    const EffectSet alone({of_file}, EffectUse::left_in, c.machine->name);
-    Vector does(static_cast<Eigen::Index>(c.rows.size()));
-    for (std::size_t k = 0; k < c.rows.size(); ++k) {
-      const RecordedTouch& touch = c.touches.touches[c.rows[k]];
-      does(static_cast<Eigen::Index>(k)) = kUmPerMm * dot(touch.scene.normal, alone.estimate(touch));
-    }
-    if (beside_free(c.model, does).cwiseQuotient(c.model.noise_um).norm() < kShows) hidden.insert(of_file.name);
+    const Vector shows = beside_free(c.model, done_by(c, {of_file}));
+    if (shows.cwiseQuotient(c.model.noise_um).norm() < kShows) hidden.insert(of_file.name);
   }
   if (hidden.empty()) return "";
   return fmt::format(
