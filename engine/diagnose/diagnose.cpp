@@ -16,6 +16,7 @@
 #include "engine/diagnose/checks/logged_columns.hpp"
 #include "engine/diagnose/checks/normals.hpp"
 #include "engine/diagnose/checks/pairing.hpp"
+#include "engine/diagnose/checks/repeats.hpp"
 #include "engine/diagnose/checks/scale_readings.hpp"
 #include "engine/diagnose/explanations/catalogue.hpp"
 #include "engine/diagnose/findings/belief.hpp"
@@ -65,6 +66,7 @@ bool holds_targets_only(const Recording& r) {
 Recording ready(const Recording& recorded, const Machine& machine, const DiagnoseOptions& options,
                 const std::string& file, std::vector<Diagnostic>& messages) {
   Recording once = without_copies(recorded, file, messages);
+  number_repeats(once, file, messages);
   check_data(once, machine, file);
   leave_out_targets(once, file, messages);
   doubt_temperatures(once, file, messages);
@@ -74,9 +76,11 @@ Recording ready(const Recording& recorded, const Machine& machine, const Diagnos
   leave_out_constant_travel(once, file, messages);
   leave_out_readings_without_phase(once, file, messages);
   leave_out_commanded_readings(once, file, messages);
+  leave_out_clock_at_rest(once, file, messages);
   continue_past_midnight(once, file, messages);
   continue_where_put_back(once, file, messages);
   continue_from_run_to_run(once, file, messages);
+  doubt_fall(once, file, messages);
   count_from_first_touch(once, file, messages);
   Recording placed = put_on_targets(once, most_out_mm(once, machine, options), file, messages);
   leave_out_astray(placed, file, messages);
@@ -85,6 +89,7 @@ Recording ready(const Recording& recorded, const Machine& machine, const Diagnos
 
 /// A plan has no positions that may be wrong, but it may be a recording of old, with the clock of the day.
 Recording planned(Recording recorded, const std::string& file, std::vector<Diagnostic>& messages) {
+  leave_out_clock_at_rest(recorded, file, messages);
   count_from_first_touch(recorded, file, messages);
   return recorded;
 }

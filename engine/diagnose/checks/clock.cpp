@@ -16,9 +16,10 @@ namespace {
 
 constexpr double kHour_s = 3600;
 
-std::vector<RecordingRow*> with_a_time(Recording& recording) {
-  std::vector<RecordingRow*> out;
-  for (RecordingRow& row : recording.rows)
+template <class Rows>
+auto with_a_time(Rows& rows) {
+  std::vector<decltype(rows.data())> out;
+  for (auto& row : rows)
     if (row.time_s) out.push_back(&row);
   return out;
 }
@@ -29,7 +30,7 @@ bool is_earlier(const RecordingRow* a, const RecordingRow* b) { return *a->time_
 
 void continue_past_midnight(Recording& recording, const std::string& file, std::vector<Diagnostic>& messages) {
   constexpr double kDay_s = 24 * kHour_s;
-  const std::vector<RecordingRow*> timed = with_a_time(recording);
+  const std::vector<RecordingRow*> timed = with_a_time(recording.rows);
   const auto fall = std::adjacent_find(timed.begin(), timed.end(), [](const RecordingRow* a, const RecordingRow* b) {
     return *b->time_s < *a->time_s - kDay_s / 2;
   });
@@ -47,12 +48,24 @@ void continue_past_midnight(Recording& recording, const std::string& file, std::
   std::for_each(morning, timed.end(), [](RecordingRow* row) { *row->time_s += kDay_s; });
 }
 
+void leave_out_clock_at_rest(Recording& recording, const std::string& file, std::vector<Diagnostic>& messages) {
+  constexpr std::size_t kFew = 3;
+  const std::vector<RecordingRow*> timed = with_a_time(recording.rows);
+  const auto moves = [&](const RecordingRow* row) { return *row->time_s != *timed.front()->time_s; };
+  if (timed.size() < kFew || std::any_of(timed.begin(), timed.end(), moves)) return;
+  messages.push_back(diagnostic(
+      Code::W0738,
+      fmt::format("{}: its clock stands at {:g} s at all touches; it is not used", file, *timed.front()->time_s),
+      "write the time of each touch into time_s, or leave the column out"));
+  for (RecordingRow* row : timed) row->time_s.reset();
+}
+
 void continue_where_put_back(Recording& recording, const std::string& file, std::vector<Diagnostic>& messages) {
   const struct {
     double by_s;
     const char* where;
   } hands[] = {{kHour_s, "where summer time ends"}, {12 * kHour_s, "on a clock of twelve hours"}};
-  const std::vector<RecordingRow*> rows = with_a_time(recording);
+  const std::vector<RecordingRow*> rows = with_a_time(recording.rows);
   double longest_s = 0;  // from a touch to the next
   std::vector<std::size_t> falls;
   for (std::size_t i = 1; i < rows.size(); ++i) {
@@ -105,7 +118,7 @@ void continue_from_run_to_run(Recording& recording, const std::string& file, std
 
 void count_from_first_touch(Recording& recording, const std::string& file, std::vector<Diagnostic>& messages) {
   constexpr double kLate_s = kHour_s;  // a program that is so long before its first touch has another clock
-  const std::vector<RecordingRow*> rows = with_a_time(recording);
+  const std::vector<RecordingRow*> rows = with_a_time(recording.rows);
   if (rows.empty()) return;
   const double first_s = *(*std::min_element(rows.begin(), rows.end(), is_earlier))->time_s;
   if (first_s >= 0 && first_s < kLate_s) return;
@@ -113,6 +126,22 @@ void count_from_first_touch(Recording& recording, const std::string& file, std::
   messages.push_back(diagnostic(
       Code::N0721, fmt::format("{}: its clock stands at {:.0f} s at the first touch", file, first_s),
       "times are counted from that touch; what changes since a start, warm-up or drift, is taken to start there"));
+}
+
+void doubt_fall(const Recording& recording, const std::string& file, std::vector<Diagnostic>& messages) {
+  constexpr std::size_t kFew = 10;
+  const std::vector<const RecordingRow*> rows = with_a_time(recording.rows);
+  const auto falls = [](const RecordingRow* a, const RecordingRow* b) {
+    return a->run == b->run && a->setup == b->setup && is_earlier(b, a);
+  };
+  const auto fall = std::adjacent_find(rows.begin(), rows.end(), falls);
+  if (rows.size() < kFew || fall == rows.end() || std::adjacent_find(fall + 1, rows.end(), falls) != rows.end()) return;
+  const RecordingRow &before = **fall, &after = **(fall + 1);
+  messages.push_back(diagnostic(
+      Code::W0728,
+      fmt::format("{}: its clock falls from {:g} s to {:g} s before '{}' touch {}, and nowhere else",
+                  file_of(recording, after, file), *before.time_s, *after.time_s, after.feature, after.touch),
+      "times count as they are: if a time is wrong, correct it; if rows do not stand in the order of the touches, all is well"));
 }
 
 }  // namespace abbe::diagnose

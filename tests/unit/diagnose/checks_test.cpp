@@ -11,6 +11,7 @@
 #include "engine/diagnose/checks/logged_columns.hpp"
 #include "engine/diagnose/checks/normals.hpp"
 #include "engine/diagnose/checks/pairing.hpp"
+#include "engine/diagnose/checks/repeats.hpp"
 #include "engine/diagnose/checks/scale_readings.hpp"
 #include "engine/diagnose/checks/unlogged_styli.hpp"
 #include "engine/math/units.hpp"
@@ -235,6 +236,61 @@ TEST_CASE("clocks that are put back within a run go on") {
   for (RecordingRow& row : again.rows)
     if (*row.time_s < 13 * kHour_s - 152) row.run = 2;  // a new run may begin at any time
   for (Recording* r : {&other, &night, &again, &slow}) CHECK(said_by(continue_where_put_back, *r).empty());
+}
+
+TEST_CASE("a run whose touches are all there again is two runs") {
+  const auto again = [](int times, std::size_t of_last) {
+    Recording all;
+    for (int k = 0; k < times; ++k)
+      for (const RecordingRow& row : of_three_balls().rows) {
+        if (k + 1 == times && all.rows.size() >= 18 * std::size_t(k) + of_last) break;
+        all.rows.push_back(row), all.rows.back().run = 2, *all.rows.back().time_s += 1000 * k;
+      }
+    return all;
+  };
+  Recording twice = again(2, 18), cut_off = again(3, 4);
+  for (Recording* r : {&twice, &cut_off}) {
+    const auto told = said_by(number_repeats, *r);
+    REQUIRE(told.size() == 1);
+    CHECK(told[0].code == Code::N0708);
+    CHECK(holds(told[0].message, "run 2 holds the same touches again, in the same order; those count as run 3"));
+    for (std::size_t i = 0; i < r->rows.size(); ++i) CHECK(r->rows[i].run == 2 + int(i / 18));
+  }
+  // The runs after it count on, each of several setups has its own, and a ball that is looked at again is no repeat.
+  Recording two = again(2, 18), setups = again(2, 18), looked_at = again(2, 6), balls;
+  for (RecordingRow row : of_three_balls().rows) row.run = 3, two.rows.push_back(row);
+  for (RecordingRow row : again(2, 18).rows) row.setup = 2, setups.rows.push_back(row);
+  CHECK(said_by(number_repeats, two).size() == 1);
+  CHECK(two.rows.back().run == 4);
+  CHECK(said_by(number_repeats, setups).size() == 1);
+  CHECK(setups.rows.back().run == 3);
+  for (const RecordingRow& row : looked_at.rows) balls.rows.push_back(row);
+  std::rotate(balls.rows.begin() + 6, balls.rows.begin() + 18, balls.rows.end());  // the first ball between the others
+  Recording numbered = of_three_balls();
+  for (Recording* r : {&looked_at, &balls, &numbered}) CHECK(said_by(number_repeats, *r).empty());
+}
+
+TEST_CASE("a clock that stands still is not used, and one that falls back once is doubted") {
+  Recording still = damaged([](RecordingRow& row) { row.time_s = 7; });
+  const auto told = said_by(leave_out_clock_at_rest, still);
+  REQUIRE(told.size() == 1);
+  CHECK(told[0].code == Code::W0738);
+  for (const RecordingRow& row : still.rows) CHECK(!row.time_s);
+  Recording runs = of_three_balls();
+  CHECK(said_by(leave_out_clock_at_rest, runs).empty());
+
+  const Check doubts = [](Recording& r, const std::string& file, std::vector<Diagnostic>& messages) {
+    doubt_fall(r, file, messages);
+  };
+  CHECK(said_by(doubts, runs).empty());
+  Recording one_wrong = runs, mixed = runs;
+  one_wrong.rows[7].time_s = 1;
+  const auto fall = said_by(doubts, one_wrong);
+  REQUIRE(fall.size() == 1);
+  CHECK(fall[0].code == Code::W0728);
+  CHECK(holds(fall[0].message, "falls from 130 s to 1 s before 'BALL2' touch 2"));
+  std::swap(mixed.rows[3], mixed.rows[9]), std::swap(mixed.rows[5], mixed.rows[14]);
+  CHECK(said_by(doubts, mixed).empty());
 }
 
 TEST_CASE("columns with gaps or of another unit are told") {

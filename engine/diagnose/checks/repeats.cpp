@@ -1,0 +1,56 @@
+#include "engine/diagnose/checks/repeats.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace abbe::diagnose {
+
+namespace {
+
+bool same_touch(const RecordingRow* a, const RecordingRow* b) {
+  return a->feature == b->feature && a->touch == b->touch && a->sensor == b->sensor;
+}
+
+/// After how many rows the first touch comes again, if all of them do so once at least, in their order; else all of the rows.
+std::size_t rows_of_one_time(const std::vector<RecordingRow*>& rows) {
+  constexpr std::size_t kFew = 5;
+  const auto again = std::find_if(rows.begin() + 1, rows.end(),
+                                  [&](const RecordingRow* row) { return same_touch(row, rows.front()); });
+  const auto count = static_cast<std::size_t>(again - rows.begin());
+  const bool repeats =
+      count >= kFew && rows.size() >= 2 * count && std::equal(again, rows.end(), rows.begin(), same_touch);
+  return repeats ? count : rows.size();
+}
+
+}  // namespace
+
+void number_repeats(Recording& recording, const std::string& file, std::vector<Diagnostic>& messages) {
+  if (recording.rows.empty()) return;
+  std::map<std::pair<int, int>, std::vector<RecordingRow*>> runs;  // by setup and run
+  for (RecordingRow& row : recording.rows) runs[{row.setup, row.run}].push_back(&row);
+  std::map<std::pair<int, std::size_t>, int> numbers;  // by run, and how many times it was made before
+  for (const auto& [of, rows] : runs)
+    for (std::size_t k = 0; k < rows.size(); k += rows_of_one_time(rows))
+      numbers[{of.second, k / rows_of_one_time(rows)}] = of.second;
+  int last = numbers.begin()->second - 1, repeated = 0, counts_as = 0;
+  for (auto& [run, number] : numbers) {
+    last = number = std::max(last + 1, run.first);
+    if (run.second == 1 && counts_as == 0) repeated = run.first, counts_as = number;
+  }
+  if (counts_as == 0) return;
+  for (const auto& [of, rows] : runs) {
+    const std::size_t count = rows_of_one_time(rows);
+    for (std::size_t k = 0; k < rows.size(); ++k) rows[k]->run = numbers[{of.second, k / count}];
+  }
+  messages.push_back(
+      diagnostic(Code::N0708,
+                 fmt::format("{}: run {} holds the same touches again, in the same order; those count as run {}", file,
+                             repeated, counts_as),
+                 "give each repeat a 'run' of its own"));
+}
+
+}  // namespace abbe::diagnose
