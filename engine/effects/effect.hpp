@@ -127,6 +127,7 @@ enum class Sought {
   stylus,         ///< the ordinals of the styli, 0 for all
   tip,            ///< the ordinals of the tips, a stylus in one orientation each; 0 for all
   setup,          ///< the placements of the part, 0 for all
+  speed,          ///< one of several probing speeds of a recording, 0 for none, mm/s
 };
 
 /// Where a parameter counts: with `choice` at `word`, or at any other of its words (`not_at`); no choice: everywhere.

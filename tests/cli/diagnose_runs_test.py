@@ -294,6 +294,20 @@ class DiagnoseRuns(harness.Case):
         self.assertTrue(low < 5 < high, (low, high))
         self.assertIn("(in run 2)", found["sentence"])
 
+    def test_a_delay_shows_at_another_speed_than_that_of_the_qualification(self):
+        """It was told as new in the run at that speed, and too small: as a delay that grew, which would show at any speed."""
+        def run(number, speed):
+            text = BALL.read_text().replace("D(SPHERE)=", f"FEDRAT/MESVEL,MMPS,{speed}\nD(SPHERE)=")
+            self.abbe("record", self.write(f"at{speed}.dmi", text), "--machine", MACHINE, "-o", f"run{number}.csv", "--run", number, "--seed", 4,
+                      "--with", "probe.trigger_delay:delay_ms=0.8,qualified_at_mm_s=8")
+            return f"run{number}.csv"
+        said = self.diagnosis(run(1, 8), run(2, 8), run(3, 3))
+        found, = said["effects"]
+        self.assertEqual((found["members"][0], found["new_in_run"][0]), ("probe.trigger_delay", None))
+        self.assertEqual(found["parameters"]["qualified_at_mm_s"]["value"], 8)
+        low, high = found["parameters"]["delay_ms"]["interval95"]
+        self.assertTrue(low < 0.8 < high, (low, high))
+
     def test_of_many_runs_it_is_found_in_which_something_is_new(self):
         """Nine later runs are judged in eight stretches first; the tenth run begins none of them."""
         recordings = self.balls(10, {10: "probe.tip_radius:amplitude_um=8"})

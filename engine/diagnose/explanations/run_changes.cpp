@@ -63,6 +63,13 @@ std::vector<FileOfRuns> files_of_runs(const RecordedTouches& t, const std::vecto
   return out;
 }
 
+/// Whether it is as it was at the qualification, and shows at other speeds only: this is not new in any run.
+bool is_as_qualified(const Effect& effect, const Variant& variant) {
+  const auto speed = std::find_if(effect.parameters.begin(), effect.parameters.end(),
+                                  [](const EffectParameter& p) { return p.sought == Sought::speed; });
+  return speed != effect.parameters.end() && variant.theta[speed - effect.parameters.begin()] > 0;
+}
+
 }  // namespace
 
 std::vector<LaterRun> later_runs(const RecordedTouches& t, const std::vector<int>& rows) {
@@ -120,6 +127,7 @@ std::vector<Variant> with_changes(std::vector<Variant> list, const Effect& effec
   const auto add = [&](const LaterRun& at, RunChange change) {
     for (Variant variant : in_all) {
       if (moment && variant.theta[*moment] != in_all.front().theta[*moment]) continue;
+      if (is_as_qualified(effect, variant)) continue;
       if (moment) variant.theta[*moment] = at.between_s(), variant.cells[*moment] = at.gap_s;
       variant.change = change;
       variant.runs = at.runs;

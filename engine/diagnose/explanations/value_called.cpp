@@ -20,6 +20,7 @@ std::string word_of(const EffectParameter& parameter, double value, const Record
   if (!parameter.choices.empty())
     return std::string(parameter.choices[static_cast<std::size_t>(value - parameter.low + 0.5)]);
   if (value == 0 && parameter.is_code()) return "all";
+  if (value == 0 && parameter.sought == Sought::speed) return "none";
   return called(parameter, static_cast<int>(value), touches);
 }
 

@@ -64,6 +64,19 @@ TEST_CASE("touches at one time have no moment between them") {
   CHECK(values(grid_of(moment, touched_at({3, 3, 3}))).empty());
 }
 
+TEST_CASE("the tip may be qualified at each of a few probing speeds, which a control holds roughly") {
+  const EffectParameter& speed = parameter_sought("probe.trigger_delay", Sought::speed);
+  const auto tried = [&](const std::vector<double>& speeds_mm_s) {
+    RecordedTouches t = touched_at(std::vector<double>(speeds_mm_s.size()));
+    for (std::size_t i = 0; i < speeds_mm_s.size(); ++i) t.touches[i].scene.speed_mm_s = speeds_mm_s[i];
+    return values(grid_of(speed, t));
+  };
+  CHECK(tried({8, 3, 8, 3}) == std::vector<double>{0, 3, 8});
+  CHECK(tried({8.1, 2.9, 8, 3, 7.9, 3.1}) == std::vector<double>{0, 3, 8});
+  CHECK(tried({8, 8}) == std::vector<double>{0});
+  CHECK(tried({1, 2, 3, 4, 5, 6}) == std::vector<double>{0});
+}
+
 TEST_CASE("no wave of a part is longer than two parts as large as what was touched") {
   const EffectParameter& wavelength = parameter_sought("part.form", Sought::wavelength);
   const auto tried = [&](double extent_mm) {

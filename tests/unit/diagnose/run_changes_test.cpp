@@ -4,6 +4,7 @@
 
 #include <array>
 #include <set>
+#include <utility>
 
 #include "tests/unit/diagnose/scattered.hpp"
 
@@ -55,4 +56,14 @@ TEST_CASE("of the runs of a week each may be the only one in which something was
     for (int run = 2; run < runs; ++run) CHECK(found.contains({run, run + 1}));
     CHECK(found.contains({runs, 0}));
   }
+}
+
+TEST_CASE("a delay that shows at another speed than that of the qualification is new in no run") {
+  Planted at(1);
+  std::set<std::pair<double, bool>> found;
+  for (int i = 0; i < at.count(); ++i)
+    at.scene(i).run = 1 + i * 2 / at.count(), at.scene(i).speed_mm_s = i % 2 == 0 ? 3 : 8;
+  for (const Variant& v : named_explanations(at.c.touches, at.c.rows, {"probe.trigger_delay"}).variants)
+    found.emplace(v.theta[1], v.change.any());
+  CHECK(found == std::set<std::pair<double, bool>>{{0, false}, {0, true}, {3, false}, {8, false}});
 }

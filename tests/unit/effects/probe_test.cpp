@@ -235,6 +235,9 @@ TEST_CASE(
   CHECK(reading_um(kTriggerDelay, scene, {{"delay_ms", 1}}) == doctest::Approx(-std::sqrt(2.0)));
   scene.travel = {};  // not recorded: along the normal
   CHECK(reading_um(kTriggerDelay, scene, {{"delay_ms", 1}}) == doctest::Approx(-2));
+  // As it was at the qualification it shows at another speed only, too far out at a slower one.
+  CHECK(reading_um(kTriggerDelay, scene, {{"delay_ms", 1}, {"qualified_at_mm_s", 2}}) == doctest::Approx(0).scale(1));
+  CHECK(reading_um(kTriggerDelay, scene, {{"delay_ms", 1}, {"qualified_at_mm_s", 8}}) == doctest::Approx(6));
 }
 
 TEST_CASE("cosine error: 3.8 um at 5 degrees with R = 1 mm, never negative, quadratic") {
