@@ -384,6 +384,18 @@ Variant variant_like(const Variant& other, const Effect& effect, const RecordedT
   return variant;
 }
 
+bool matters(const Variant& variant, const Effect& effect, std::size_t parameter, const std::vector<TriedValue>& tried,
+             const RecordedTouches& t, const std::vector<int>& rows) {
+  constexpr double kNothing_um = 1e-6;
+  Variant at = variant;
+  return tried.size() < 2 || std::any_of(tried.begin(), tried.end(), [&](const TriedValue& other) {
+           at.theta[parameter] = other.value;
+           const Matrix signature = variant_like(at, effect, t, rows).signature;
+           return signature.cols() != variant.signature.cols() ||
+               (signature - variant.signature).cwiseAbs().maxCoeff() > kNothing_um;
+         });
+}
+
 Explanations named_explanations(const RecordedTouches& t, const std::vector<int>& rows,
                                 const std::vector<std::string>& names) {
   Explanations out;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/diagnose/explanations/parameter_grid.hpp"
 #include "engine/diagnose/model/explanation.hpp"
 #include "engine/run/recorded/touch.hpp"
 
@@ -33,5 +34,10 @@ Explanations named_explanations(const RecordedTouches&, const std::vector<int>& 
 /// A variant of an effect with the parameters, the group and the change of another; no columns where the effect does
 /// nothing there.
 Variant variant_like(const Variant&, const Effect&, const RecordedTouches&, const std::vector<int>& rows);
+
+/// Whether a parameter of a variant would do anything else to these touches at another of the values that are tried: where a
+/// step lies along an axis, it has no moment.
+bool matters(const Variant&, const Effect&, std::size_t parameter, const std::vector<TriedValue>& tried,
+             const RecordedTouches&, const std::vector<int>& rows);
 
 }  // namespace abbe::diagnose

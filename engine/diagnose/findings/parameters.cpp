@@ -220,7 +220,7 @@ class Estimator {
       case ParameterGrid::Kind::fixed: return;
       case ParameterGrid::Kind::tried: break;
     }
-    if (!matters(p)) return;
+    if (!matters(likeliest.variant, *explanation_.effect, p, grids_[p].tried, touches_, rows_)) return;
     const double value = likeliest.variant.theta[p];
     const bool standard = value == parameter.standard;
     if (grids_[p].between && !(standard && grids_[p].tried.size() < 2)) {
@@ -292,20 +292,6 @@ class Estimator {
   std::string in_words(const EffectParameter& parameter, double value) const {
     if (std::string word = word_of(parameter, value, touches_); !word.empty()) return word;
     return parameter.is_code() ? fmt::format("{:g}", value) : fmt::format("{:g} {}", value, parameter.unit);
-  }
-
-  /// Whether another value would do anything else to these touches: where a step lies along an axis, it has no moment.
-  bool matters(std::size_t p) const {
-    constexpr double kNothing_um = 1e-6;
-    const Variant& likeliest = variants_[likeliest_].variant;
-    Variant at = likeliest;
-    if (grids_[p].tried.size() < 2) return true;
-    return std::any_of(grids_[p].tried.begin(), grids_[p].tried.end(), [&](const TriedValue& other_value) {
-      at.theta[p] = other_value.value;
-      const Matrix other = variant_like(at, *explanation_.effect, touches_, rows_).signature;
-      return other.cols() != likeliest.signature.cols() ||
-          (other - likeliest.signature).cwiseAbs().maxCoeff() > kNothing_um;
-    });
   }
 
   /// In which of several runs a moment of their common clock lies; "" of one run.

@@ -16,6 +16,7 @@
 #include <optional>
 
 #include "engine/base/on_threads.hpp"
+#include "engine/diagnose/explanations/catalogue.hpp"
 #include "engine/diagnose/explanations/parameter_grid.hpp"
 #include "engine/diagnose/explanations/value_called.hpp"
 #include "engine/diagnose/levels.hpp"
@@ -32,6 +33,9 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 /// Signal-to-noise: what is larger is not told by evidence but seen by eye.
 constexpr double kSeenByEye = 100;
 
+/// An explanation that is believed by so many nats less than another is no rival of it.
+constexpr double kNoRival = 40;
+
 /// One form of an effect: a column of a variant.
 struct Form {
   int variant = 0;
@@ -43,28 +47,31 @@ struct Form {
 /// What a variant makes of a shift: all that its evidence needs.
 struct VariantView {
   Matrix axes;
-  Vector information;  ///< along them
-  std::vector<Size> sizes;
-  Eigen::Index first = 0;          ///< of its columns among those of all variants
-  std::vector<double> log_belief;  ///< by size: before the shift, with the determinant
+  /// What a square of a shift along them tells: a row by size, in nats, and the share of the information of each that it imitates.
+  Matrix per_square;
+  Eigen::Index first = 0;  ///< of its columns among those of all variants
+};
+
+/// Variants or sizes that follow each other.
+struct Stretch {
+  Eigen::Index first = 0, count = 0;
 };
 
 class Design {
  public:
   Design(const Case& c, const EvidenceSearch& search, const Power& power)
-      : all_(c.explanations), touches_(c.touches), search_(search), power_(power) {
-    for (int b = 0; b < static_cast<int>(all_.variants.size()); ++b) {
-      const Matrix g = search.between(b, b);
-      const Spectrum of_g = spectrum(g);
-      VariantView view{
-          of_g.vectors, of_g.values.cwiseMax(1e-9 * (g.trace() + 1e-300)), search.sizes(b), search.first_column(b), {}};
-      const double log_weight = std::log(std::max(all_.variants[b].weight, 1e-300));
-      for (const Size& size : view.sizes)
-        view.log_belief.push_back(log_weight + size.log_prior -
-                                  0.5 * (1 + size.factor * size.factor * view.information.array()).log().sum());
-      variants_.push_back(std::move(view));
-      diagonal_.push_back(g.diagonal());
+      : all_(c.explanations), touches_(c.touches), rows_(c.rows), search_(search), power_(power) {
+    for (int b = 0; b < static_cast<int>(all_.variants.size()); ++b)
+      diagonal_.push_back(search.between(b, b).diagonal());
+    std::vector<double> log_belief;
+    for (const Explanation& e : all_.list) {
+      const auto first_variant = static_cast<Eigen::Index>(variants_.size()),
+                 first = static_cast<Eigen::Index>(log_belief.size());
+      for (const int b : e.variants) add(b, std::log(e.prior), log_belief);
+      variants_of_.push_back({first_variant, static_cast<Eigen::Index>(variants_.size()) - first_variant});
+      sizes_of_.push_back({first, static_cast<Eigen::Index>(log_belief.size()) - first});
     }
+    log_belief_ = Eigen::Map<const Vector>(log_belief.data(), static_cast<Eigen::Index>(log_belief.size()));
   }
 
   std::optional<Detectable> of(std::size_t k) const {
@@ -76,15 +83,15 @@ class Design {
     const EffectParameter& parameter = e.effect->parameters[parameter_of(e)];
     std::vector<double> belief(all_.list.size(), 0.0);
     std::vector<Eigen::Index> columns;
-    for (const Form& f : forms) columns.push_back(variants_[f.variant].first + f.column);
-    const Matrix seen = search_.against_all(columns);
-    const auto shift_of_form = [&](const Form& f) {
-      return shift_of(seen.col(f.place) / std::sqrt(diagonal_[f.variant](f.column)));
-    };
+    for (const Form& f : forms) columns.push_back(search_.first_column(f.variant) + f.column);
+    Matrix seen = search_.against_all(columns);
     for (std::size_t i = 0; i < forms.size(); ++i) {
-      Form& f = forms[i];
-      f.place = static_cast<Eigen::Index>(i);
-      const Shift shift = shift_of_form(f);
+      forms[i].place = static_cast<Eigen::Index>(i);
+      seen.col(forms[i].place) /= std::sqrt(diagonal_[forms[i].variant](forms[i].column));
+    }
+    const std::vector<Shift> shifts = shifts_of(seen);
+    for (Form& f : forms) {
+      const Shift& shift = shifts[f.place];
       f.named = named_from(k, shift);
       const std::vector<double> at = beliefs(k, shift, 2 * kDetects);
       for (std::size_t j = 0; j < at.size(); ++j) belief[j] += at[j] / double(forms.size());
@@ -96,7 +103,7 @@ class Design {
     Form told = median_form(forms, [](const Form& f) { return f.per_snr * f.named; });
     const bool is_named = std::isfinite(told.named);
     if (!is_named) told = median_form(forms, [](const Form& f) { return f.per_snr; });
-    const double seen_from = detected_from(told, k, shift_of_form(told));
+    const double seen_from = detected_from(told, k, shifts[told.place]);
     if (std::isinf(seen_from)) return std::nullopt;
     // No effect is larger than the catalogue takes it for possible: what shows from there on does not show.
     const auto possible = [&](double snr) { return snr * told.per_snr <= parameter.high; };
@@ -112,9 +119,27 @@ class Design {
  private:
   /// What all variants see of a form, at a signal-to-noise of 1.
   struct Shift {
-    std::vector<std::vector<double>> gain;  ///< by variant and size: nats
-    std::vector<double> left;               ///< by explanation: the share of the information that it cannot imitate
+    Vector gain;  ///< by explanation, variant and size: nats
+    Vector left;  ///< by explanation: the share of the information that it cannot imitate
   };
+
+  /// A further variant, with its belief before the shift by size, and the determinant.
+  void add(int b, double log_prior, std::vector<double>& log_belief) {
+    const Matrix g = search_.between(b, b);
+    const Spectrum of_g = spectrum(g);
+    const Vector information = of_g.values.cwiseMax(1e-9 * (g.trace() + 1e-300));
+    const std::vector<Size> sizes = search_.sizes(b);
+    Matrix per_square(sizes.size() + 1, information.size());
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+      const double s2 = sizes[i].factor * sizes[i].factor;
+      const Eigen::ArrayXd more = 1 + s2 * information.array();
+      per_square.row(static_cast<Eigen::Index>(i)) = 0.5 * s2 / more;
+      log_belief.push_back(log_prior + std::log(std::max(all_.variants[b].weight, 1e-300)) + sizes[i].log_prior -
+                           0.5 * more.log().sum());
+    }
+    per_square.bottomRows(1) = information.cwiseInverse().transpose();
+    variants_.push_back({of_g.vectors, std::move(per_square), search_.first_column(b)});
+  }
 
   /// The signal-to-noise from which on a form is seen.
   double detected_from(const Form& f, std::size_t explanation, const Shift& shift) const {
@@ -137,9 +162,10 @@ class Design {
       const EffectParameter& parameter = effect.parameters[p];
       const ParameterGrid grid = grid_of(parameter, touches_);
       if (parameter.linear || grid.kind != ParameterGrid::Kind::tried || grid.tried.size() < 2 ||
-          !counts(effect, parameter, variant.theta))
+          !matters(variant, effect, p, grid.tried, touches_, rows_))
         continue;
       const double value = variant.theta[p];
+      if (value == 0 && parameter.sought == Sought::speed) continue;  // none in particular
       out.push_back({.name = std::string(parameter.name),
                      .unit = std::string(parameter.unit),
                      .value = value,
@@ -198,52 +224,56 @@ class Design {
     return out;
   }
 
-  /// `u`: H' P h of a form h at a signal-to-noise of 1.
-  Shift shift_of(const Vector& u) const {
-    Shift out;
-    std::vector<double> imitated;
-    for (const VariantView& b : variants_) {
-      const Eigen::ArrayXd squares = (b.axes.transpose() * u.segment(b.first, b.axes.rows())).array().square();
-      imitated.push_back((squares / b.information.array()).sum());
-      std::vector<double>& gain = out.gain.emplace_back();
-      for (const Size& size : b.sizes) {
-        const double s2 = size.factor * size.factor;
-        gain.push_back(0.5 * s2 * (squares / (1 + s2 * b.information.array())).sum());
+  /// `seen`: a column H' P h for each form h at a signal-to-noise of 1.
+  std::vector<Shift> shifts_of(const Matrix& seen) const {
+    Matrix gain(log_belief_.size(), seen.cols());
+    Matrix left = Matrix::Ones(static_cast<Eigen::Index>(all_.list.size()), seen.cols());
+    Matrix told;
+    for (std::size_t k = 0; k < all_.list.size(); ++k) {
+      Eigen::Index row = sizes_of_[k].first;
+      for (Eigen::Index i = 0; i < variants_of_[k].count; ++i) {
+        const VariantView& b = variants_[variants_of_[k].first + i];
+        told = b.per_square * (b.axes.transpose() * seen.middleRows(b.first, b.axes.rows())).cwiseAbs2();
+        const Eigen::Index sizes = told.rows() - 1;
+        gain.middleRows(row, sizes) = told.topRows(sizes);
+        left.row(k) = left.row(k).cwiseMin((1 - told.row(sizes).array()).cwiseMax(0).matrix());
+        row += sizes;
       }
     }
-    for (const Explanation& e : all_.list) {
-      double left = 1;
-      for (const int b : e.variants) left = std::min(left, 1 - imitated[b]);
-      out.left.push_back(std::max(0.0, left));
-    }
+    std::vector<Shift> out;
+    for (Eigen::Index i = 0; i < seen.cols(); ++i) out.push_back({gain.col(i), left.col(i)});
     return out;
   }
 
-  /// The logarithm of prior and Bayes factor of an explanation, for the shift alone.
-  double log_belief(std::size_t k, const Shift& shift, double snr) const {
-    std::vector<double> terms;
-    for (const int index : all_.list[k].variants) {
-      const auto b = static_cast<std::size_t>(index);
-      for (std::size_t i = 0; i < variants_[b].sizes.size(); ++i)
-        terms.push_back(variants_[b].log_belief[i] + snr * snr * shift.gain[b][i]);
-    }
-    return std::log(all_.list[k].prior) + log_sum_exp(terms);
+  /// By variant and size of an explanation: the logarithm of what is believed in it, for the shift alone.
+  auto log_beliefs(std::size_t k, const Shift& shift, double snr) const {
+    const auto [first, count] = sizes_of_[k];
+    return log_belief_.segment(first, count) + snr * snr * shift.gain.segment(first, count);
+  }
+
+  /// The logarithm of prior and Bayes factor of an explanation, for the shift alone; minus infinity where it is less
+  /// than `least`.
+  double log_belief(std::size_t k, const Shift& shift, double snr, double least = -kNever) const {
+    const Vector terms = log_beliefs(k, shift, snr);
+    const bool is_less = terms.size() == 0 || terms.maxCoeff() + std::log(double(terms.size())) < least;
+    return is_less ? -kNever : log_sum_exp(terms);
   }
 
   /// Whether the set of names would be this one alone, and it be preferred to patterns without a name, with a
   /// power of 80 %.
   bool named(std::size_t truth, const Shift& shift, double snr) const {
-    const double own = log_belief(truth, shift, snr), over_patterns = std::log(kAsWell);
+    const double own = log_belief(truth, shift, snr), over_patterns = std::log(kAsWell), most = 1 / kCredible - 1;
     double against = 0;
-    for (std::size_t j = 0; j < all_.list.size(); ++j) {
+    for (std::size_t j = 0; j < all_.list.size() && against <= most; ++j) {
       if (j == truth) continue;
-      const double odds = own - log_belief(j, shift, snr) - kPowerDeviations * snr * std::sqrt(shift.left[j]);
+      const double chance = kPowerDeviations * snr * std::sqrt(shift.left(static_cast<Eigen::Index>(j))),
+                   rival = log_belief(j, shift, snr, own - chance - kNoRival), odds = own - rival - chance;
       if (all_.list[j].effect)
         against += std::exp(-odds);
       else if (odds < over_patterns)
         return false;
     }
-    return 1 / (1 + against) >= kCredible;
+    return against <= most;
   }
 
   double named_from(std::size_t truth, const Shift& shift) const {
@@ -264,7 +294,8 @@ class Design {
     std::vector<double> out(all_.list.size(), 0.0);
     double sum = 0;
     for (std::size_t j = 0; j < out.size(); ++j)
-      if (all_.list[j].effect) sum += out[j] = std::exp(std::min(50.0, log_belief(j, shift, snr) - own));
+      if (all_.list[j].effect)
+        sum += out[j] = std::exp(std::min(50.0, log_belief(j, shift, snr, own - kNoRival) - own));
     for (double& b : out) b /= sum;
     return out;
   }
@@ -290,10 +321,14 @@ class Design {
 
   const Explanations& all_;
   const RecordedTouches& touches_;
+  const std::vector<int>& rows_;
   const EvidenceSearch& search_;
   const Power& power_;
-  std::vector<VariantView> variants_;
-  std::vector<Vector> diagonal_;  ///< by variant: the information on each column
+  std::vector<VariantView> variants_;  ///< by explanation
+  std::vector<Stretch> variants_of_;   ///< by explanation
+  std::vector<Stretch> sizes_of_;      ///< of all variants of an explanation
+  Vector log_belief_;                  ///< before the shift, by explanation, variant and size
+  std::vector<Vector> diagonal_;       ///< by variant: the information on each column
 };
 
 }  // namespace
