@@ -94,6 +94,7 @@ class Values(harness.Case):
             return row | {"value": repr(float(row["value"]) + 0.01)} if "z1_" in row["program"] and row["run"] == "2" else row
         said = self.diagnosis(self.changed(self.recorded(runs=3), slip))
         self.assertRegex(said["otherwise"], r"LEN in run 2 is ([89]|1[012])(\.\d)? um beside its other runs, which agree: check what was written there")
+        self.assertEqual(said["location"][0]["where"]["run"], "2")
 
     def test_all_characteristics_that_stray_are_told(self):
         """Both blocks stood on dirt where they stood upright, in three runs: neither strays by itself."""
@@ -102,6 +103,7 @@ class Values(harness.Case):
         said = self.diagnosis(self.changed(self.recorded(runs=3, lengths=BOTH), dirty))
         self.assertRegex(said["unexplained"]["sentence"], r"LEN of \S*z1_S.dmi strays, by .* LEN of \S*z1_L.dmi strays too\.")
         self.assertRegex(said["otherwise"], r"LEN of \S*z1_S.dmi and of LEN of \S*z1_L.dmi, and measure them again")
+        self.assertNotIn("run", said["location"][0]["where"])   # all three runs stray alike
 
     def test_one_characteristic_that_strays_alike_in_all_places_is_told(self):
         """A wrong reference of one step of a step gauge, which was measured in three placements: "single values" strayed."""

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "engine/diagnose/baseline/rough_geometry.hpp"
 #include "engine/diagnose/explanations/catalogue.hpp"
@@ -66,21 +68,38 @@ ValueCase specified_case(const ValueRecording& recording, const std::vector<Valu
   return std::move(*c);
 }
 
+/// Where values stray most: at one characteristic, and in one run of several where the others stray less than half as far.
+Location strongest(const std::vector<JudgedValue>& values) {
+  struct Strayed {
+    double squares = 0, least_p = 1;
+    int values = 0;
+    const JudgedValue* furthest = nullptr;
+  };
+  std::map<std::pair<std::string, std::string>, Strayed> by_characteristic;
+  double all = 0;
+  for (const JudgedValue& v : values) {
+    Strayed& s = by_characteristic[{v.characteristic, v.program}];
+    all += v.z * v.z, s.squares += v.z * v.z, s.values += 1;
+    s.least_p = std::min(s.least_p, v.p);
+    if (!s.furthest || std::abs(v.z) > std::abs(s.furthest->z)) s.furthest = &v;
+  }
+  const auto less = [](const auto& a, const auto& b) { return a.second.squares < b.second.squares; };
+  const auto& [name, strayed] = *std::max_element(by_characteristic.begin(), by_characteristic.end(), less);
+  const double own = strayed.furthest->z * strayed.furthest->z, others = strayed.squares - own;
+  const bool in_one_run = 4 * others <= own * double(strayed.values - 1);
+  Location out{"feature", {{"characteristic", name.first}, {"program", name.second}}};
+  if (in_one_run) out.where.emplace_back("run", std::to_string(strayed.furthest->run));
+  out.share = (in_one_run ? own : strayed.squares) / all;
+  out.p = std::min(1.0, strayed.least_p * double(values.size()));
+  return out;
+}
+
 /// What sets the recording apart from machines in order.
 void tell_mismatch(const ValueCase& c, Diagnosis& out) {
   tell_explanation(c, Closer(c), out);
   for (const std::string& slip : {doubt_of_single_repeats(c), doubt_of_micrometres(c)})
     if (!slip.empty()) out.otherwise = slip + (out.otherwise.empty() ? "" : " ") + out.otherwise;
-  const auto worst =
-      std::max_element(out.values.begin(), out.values.end(),
-                       [](const JudgedValue& a, const JudgedValue& b) { return std::abs(a.z) < std::abs(b.z); });
-  double squares = 0;
-  for (const JudgedValue& v : out.values) squares += v.z * v.z;
-  out.location.push_back(
-      {"feature",
-       {{"characteristic", worst->characteristic}, {"program", worst->program}, {"run", std::to_string(worst->run)}},
-       worst->z * worst->z / squares,
-       std::min(1.0, worst->p * double(out.values.size()))});
+  out.location.push_back(strongest(out.values));
 }
 
 }  // namespace
