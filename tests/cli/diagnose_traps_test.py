@@ -315,12 +315,24 @@ class Traps(harness.Case):
             dirt, = self.diagnosis(self.record("--seed", seed, "--with", "noise.outliers:share=0.01,size_um=6"))["effects"]
             self.assertEqual((dirt["probability"] >= 0.9, "may still be chance" in dirt["sentence"]), (certain, not certain))
 
+    def test_outliers_of_both_signs_are_no_dirt(self):
+        """Four at +9 and at -9 um were one size of 8.6 or -8.6 um, and were to be cleaned away."""
+        recording = self.record("--seed", 3, "--with", "noise.outliers:share=0.06,size_um=20,opposite=0.5")
+        said = json.loads(self.abbe("diagnose", recording, "--machine", MACHINE, "--format", "json", "--model-out", "disturbed.json").stdout)
+        found = next(e for e in said["effects"] if e["members"] == ["noise.outliers"])
+        self.assertRegex(found["sentence"], r"\d touches are outliers, \d+ too far out and \d+ too far in: a disturbed probe")
+        low, high = found["parameters"]["opposite"]["interval95"]
+        self.assertTrue(low < 0.5 < high, (low, high))
+        carried, = json.loads((self.folder / "disturbed.json").read_text())["effects"]
+        self.assertGreater(carried["parameters"]["opposite"]["value"], 0)
+
     def test_the_size_of_dirt_is_its_median(self):
         logs = []
         for seed in range(1, 7):
             said = self.diagnosis(self.record("--seed", seed, "--with", "noise.outliers:share=0.05,size_um=-30"))
             size = next(e["parameters"]["size_um"] for e in said["effects"] if e["members"] == ["noise.outliers"])
             self.assertLess(size["value"], 0)
+            self.assertIn("all too far in", said["effects"][0]["sentence"])
             logs.append(math.log(size["value"] / -30))
         # about 10 touches in each of 6 recordings, whose logarithms have a standard deviation of 0.7: 0.09 of the mean
         self.assertLess(abs(sum(logs) / len(logs)), 3 * 0.09)

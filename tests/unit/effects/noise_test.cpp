@@ -71,6 +71,17 @@ TEST_CASE("outliers: the given share, all on one side, 3 to 50 um for a median o
   CHECK(reading_um(kOutliers, scene, dirt, {-5, 1.96}) == doctest::Approx(47).epsilon(0.02));
 }
 
+TEST_CASE("outliers: a share of them lies on the other side") {
+  int out = 0, in = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const double r =
+        reading_um(kOutliers, touch({0, 0, 1}), {{"share", 0.02}, {"opposite", 0.25}}, {quantile((i + 0.5) / 2000), 0});
+    out += r > 0 ? 1 : 0, in += r < 0 ? 1 : 0;
+  }
+  CHECK(out == 30);
+  CHECK(in == 10);
+}
+
 TEST_CASE("outliers: none when their share is not given") {
   CHECK(displacement_mm(kOutliers, touch({0, 0, 1}), {}, {-8, 0}) == Vec3{});
 }

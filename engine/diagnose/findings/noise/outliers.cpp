@@ -35,13 +35,23 @@ Vector beyond_found(const Case& c, const SearchResult& result) {
   return beyond_prediction(with_free(compact(c.baseline.model), pointers_to(found)), result.hyper, c.masked);
 }
 
+/// Which side they lie on, and what makes touches so.
+std::string what_makes(double outwards, double inwards) {
+  if (inwards == 0) return ": dirt, burrs or early triggers.";
+  if (outwards == 0)
+    return ", all too far in: late triggers or pits. Dirt and burrs would be too far out, unless normals point into the part.";
+  return fmt::format(
+      ", {:.0f} too far out and {:.0f} too far in: a disturbed probe, loose contact or stylus. Dirt and burrs are too far out only.",
+      outwards, inwards);
+}
+
 /// More touches beyond the limit of gross outliers than normal noise and the machine file put there, and far beyond it.
 std::optional<NoiseFinding> judge_outliers(Scatter& s) {
   const Case& c = s.c;
   if (c.off_um.size() == 0) return std::nullopt;
   const Vector beyond = beyond_found(c, s.result);
   std::vector<std::size_t> out;
-  double sum = 0, outwards = 0, log_sum = 0, limit = 0;
+  double sum = 0, outwards = 0, log_sum = 0, limit = 0;  // `outwards`: how many
   std::map<int, int> by_feature;
   for (std::size_t i = 0; i < c.masked.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
@@ -50,18 +60,20 @@ std::optional<NoiseFinding> judge_outliers(Scatter& s) {
     if (!c.masked[i] || std::abs(off) < own) continue;
     out.push_back(i);
     ++by_feature[c.touches.touches[i].scene.feature];
-    sum += std::abs(off), outwards += off, log_sum += std::log(std::abs(off)), limit += own;
+    sum += std::abs(off), outwards += off > 0 ? 1 : 0, log_sum += std::log(std::abs(off)), limit += own;
   }
   const auto n = static_cast<double>(out.size());
   const double all = static_cast<double>(c.masked.size()), share = n / all;
   const double p = poisson_tail(n, expected_outliers(c));
   if (n < 2 || p > kNoiseAlarm || sum < kFarOut * limit) return std::nullopt;
-  const double median = std::copysign(std::exp(log_sum / n), outwards);
+  const bool proud = 2 * outwards >= n;
+  const double median = (proud ? 1 : -1) * std::exp(log_sum / n), opposite = (proud ? n - outwards : outwards) / n;
   NoiseFinding f{&kOutliers,
                  p,
                  {figure("share", "1", share, std::sqrt(share / all)),
                   figure("size_um", "um", median, kOutlierLogSpread * std::abs(median) / std::sqrt(n))},
                  {}};
+  if (opposite > 0) f.parameters.push_back(figure("opposite", "1", opposite, std::sqrt(opposite * (1 - opposite) / n)));
   // Dirt lies anywhere in the sequence. What lies so close together by chance in one recording of twenty may
   // be something that happened then.
   constexpr double kByChance = 0.05;
@@ -69,7 +81,8 @@ std::optional<NoiseFinding> judge_outliers(Scatter& s) {
   const auto most = std::max_element(by_feature.begin(), by_feature.end(),
                                      [](const auto& a, const auto& b) { return a.second < b.second; });
   f.factor = Factor::feature, f.where = {{"feature", c.touches.features[most->first]}};
-  f.sentence = fmt::format("{:.0f} of {} touches are outliers: dirt, burrs or early triggers.", n, c.masked.size());
+  f.sentence =
+      fmt::format("{:.0f} of {} touches are outliers{}", n, c.masked.size(), what_makes(outwards, n - outwards));
   return f;
 }
 
