@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/diagnose/planning/reach.hpp"
 #include "engine/diagnose/quantile.hpp"
+#include "engine/math/units.hpp"
 #include "engine/run/motion.hpp"
 
 namespace abbe::diagnose {
@@ -122,6 +124,14 @@ double room_above_or_below(const Case& c) {
   return above >= below ? by : -by;
 }
 
+/// How many surfaces the stylus does not reach when the part is turned so.
+std::ptrdiff_t beyond_reach(const Case& c, const Mat3& turn) {
+  const std::vector<RecordedTouch>& all = c.touches.touches;
+  return std::count_if(all.begin(), all.end(), [&, least = least_facing(c.touches)](const RecordedTouch& t) {
+    return facing(turn * t.scene.normal, t.scene.stylus) < least;
+  });
+}
+
 void add_placements(const Case& c, std::vector<Change>& list) {
   list.push_back({.text = "repeat with the part clamped anew",
                   .instruction = "release the part and clamp it again in the same place",
@@ -133,8 +143,13 @@ void add_placements(const Case& c, std::vector<Change>& list) {
   };
   turned("turned by 90 degrees about the vertical", {0, 0, 1}, kPi / 2);
   turned("turned by 180 degrees about the vertical", {0, 0, 1}, kPi);
-  turned("tilted by 20 degrees about X", {1, 0, 0}, kPi / 9);
-  turned("tilted by 20 degrees about Y", {0, 1, 0}, kPi / 9);
+  const auto tilted = [&](char name, const Vec3& axis) {  // to the side on which more can be touched
+    constexpr double kTilt_rad = kPi / 9;
+    const bool back = beyond_reach(c, rotation(axis, -kTilt_rad)) < beyond_reach(c, rotation(axis, kTilt_rad));
+    turned(fmt::format("tilted by {:.0f} degrees about {}", in_degrees(back ? -kTilt_rad : kTilt_rad), name), axis,
+           back ? -kTilt_rad : kTilt_rad);
+  };
+  tilted('X', {1, 0, 0}), tilted('Y', {0, 1, 0});
   const double height = room_above_or_below(c);
   constexpr double kWorthIt_mm = 50;
   if (std::abs(height) < kWorthIt_mm) return;

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <utility>
+#include <vector>
 
 #include "engine/base/numbers.hpp"
 #include "engine/diagnose/planning/alignment.hpp"
@@ -113,6 +115,7 @@ class Writer {
           path_.missing_mm));
     say(recording_sentence(longer_));
     labels_to_put_back();
+    touches_left_out();
     if (const auto part = said(longer_.recording.metadata, "workpiece"))
       say(fmt::format("Its points are those of the true part '{}', not those of the drawing.", *part));
     if (change_.instruction.empty()) return;
@@ -128,6 +131,21 @@ class Writer {
     if (told.empty()) return;
     say("DMIS cannot hold some labels of the first recording. Put them back into the column 'feature' of the new one, or its touches are others:");
     for (const std::string& label : told) say(label);
+  }
+
+  /// What the stylus does not reach, and the numbers of those after it.
+  void touches_left_out() {
+    if (longer_.left_out == 0) return;
+    say(fmt::format(
+        "{} touches of the first recording are left out: they lie on sides that face away from the stylus then.",
+        longer_.left_out));
+    std::map<std::pair<std::string, int>, std::vector<int>> numbers;  // by feature and setup
+    for (std::size_t k = longer_.first; k < touches_.size(); ++k)
+      numbers[{feature_label(k), row(k).setup}].push_back(row(k).touch);
+    for (const auto& [of, list] : numbers)
+      if (list.back() != static_cast<int>(list.size()))
+        say(fmt::format("What is touched here of {} are its touches {}: put these numbers into the column 'touch'.",
+                        of.first, fmt::join(list, ", ")));
   }
 
   /// Definitions of all styli: the recording may know some that the machine file does not.

@@ -4,11 +4,13 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 
 #include "engine/diagnose/baseline/calibrated_part.hpp"
 #include "engine/diagnose/baseline/length_errors.hpp"
 #include "engine/diagnose/baseline/machine_effects.hpp"
 #include "engine/diagnose/planning/path.hpp"
+#include "engine/diagnose/planning/reach.hpp"
 #include "engine/run/motion.hpp"
 
 namespace abbe::diagnose {
@@ -79,12 +81,10 @@ bool displaced(const RecordedTouches& t) {
   return std::any_of(t.messages.begin(), t.messages.end(), [](const Diagnostic& d) { return d.code == Code::W0542; });
 }
 
-}  // namespace
-
-std::optional<Longer> repeated(const Case& c, const Change& change, std::size_t most) {
-  Longer out{*c.recording, *c.machine, {}, 0, {}};
+/// These rows once more, after the change.
+Longer with_repeated(const Case& c, const Change& change, const std::vector<int>& rows) {
+  Longer out{*c.recording, *c.machine, {}, 0, {}, 0};
   const Last last = last_of(*c.recording);
-  const std::vector<int> rows = selected(c, change.reversed, most);
   const std::optional<int> stays = setup_that_stays(c, change);
   const double begin_s = c.recording->rows[rows.front()].time_s.value_or(0);
   for (const int k : rows) {
@@ -112,6 +112,25 @@ std::optional<Longer> repeated(const Case& c, const Change& change, std::size_t 
   constexpr unsigned kReadings = static_cast<unsigned>(Covariate::raw_reading);
   out.touches.known |= c.touches.known & kReadings;
   out.touches.varying |= c.touches.known & kReadings;
+  return out;
+}
+
+}  // namespace
+
+std::optional<Longer> repeated(const Case& c, const Change& change, std::size_t most) {
+  std::vector<int> rows = selected(c, change.reversed, most);
+  Longer out = with_repeated(c, change, rows);
+  const double least = least_facing(c.touches);
+  std::set<int> beyond_reach;
+  for (std::size_t k = out.first; k < out.touches.touches.size(); ++k)
+    if (const RecordedTouch& t = out.touches.touches[k]; facing(t.scene.normal, t.scene.stylus) < least)
+      beyond_reach.insert(rows[static_cast<std::size_t>(t.row) - c.recording->rows.size()]);
+  if (2 * beyond_reach.size() > rows.size()) return std::nullopt;
+  if (!beyond_reach.empty()) {
+    std::erase_if(rows, [&](int row) { return beyond_reach.contains(row); });
+    out = with_repeated(c, change, rows);
+    out.left_out = beyond_reach.size();
+  }
   if (displaced(out.touches) && !displaced(c.touches)) return std::nullopt;
   for (std::size_t k = out.first; k < out.touches.touches.size(); ++k)
     if (!inside(out.machine, out.touches.touches[k].scene.reading)) return std::nullopt;

@@ -94,6 +94,26 @@ TEST_CASE("another ball touches the same surface, whatever the recording holds")
   }
 }
 
+TEST_CASE("what faces away from the stylus after a change is not touched again") {
+  const TouchedBlock block;
+  // The front would face away from the stylus, were the part tilted forward.
+  const Change tilt = block.change("tilted by -20 degrees about X");
+  const auto longer = repeated(block.c, tilt), turned = repeated(block.c, block.change("turned by 90 degrees"));
+  REQUIRE(longer);
+  REQUIRE(turned);
+  CHECK(longer->left_out == 3);  // of bore and pin what faces the other way
+  CHECK(longer->touches.touches.size() == 2 * longer->first - 3);
+  for (std::size_t k = longer->first; k < longer->touches.touches.size(); ++k) {
+    const TouchScene& s = longer->touches.touches[k].scene;
+    CHECK(dot(s.normal, s.stylus.to_head) > -1e-9);
+    CHECK(feature_of(*longer, k) == feature_of(*longer, static_cast<std::size_t>(longer->same_as[k])));
+  }
+  const std::string program = dmis_program(block.c, *longer, tilt);
+  CHECK(program.find("3 touches of the first recording are left out") != std::string::npos);
+  CHECK(program.find("touched here of BORE are its touches 1, 2, 3, 5, 6, 7: put these numbers") != std::string::npos);
+  CHECK(turned->left_out == 0);
+}
+
 TEST_CASE("a part that is moved, or that was left for hours, is in another setup and all else in another run") {
   TouchedBlock block;
   for (RecordingRow& row : block.recording.rows) row.temp_part_C = 20;
@@ -200,7 +220,7 @@ TEST_CASE("the tip stays before the surfaces and changes features above them") {
 
 TEST_CASE("a moved part is found by its own touches") {
   const TouchedBlock block;
-  for (const char* how : {"turned by 90", "tilted by 20 degrees about X", "tilted by 20 degrees about Y"}) {
+  for (const char* how : {"turned by 90", "tilted by -20 degrees about X", "tilted by 20 degrees about Y"}) {
     INFO(how);
     const auto longer = repeated(block.c, block.change(how));
     REQUIRE(longer);
