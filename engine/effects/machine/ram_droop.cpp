@@ -16,6 +16,9 @@
 namespace abbe {
 namespace {
 
+// The ram of a machine here is vertical (docs/machine.md), and it bends across.
+constexpr double kVertical[] = {2}, kAcross[] = {0, 1};
+
 constexpr EffectParameter kRamDroopParameters[] = {
     {.name = "droop_um",
      .unit = "um",
@@ -36,13 +39,17 @@ constexpr EffectParameter kRamDroopParameters[] = {
      .help = "direction of the reading error by sag: 0 x, 1 y, 2 z",
      .high = 2,
      .standard = 1,
-     .choices = kAxisChoices},
+     .choices = kAxisChoices,
+     .sought = Sought::listed,
+     .tried = kAcross},
     {.name = "axis",
      .unit = "code",
      .help = "axis of the ram: 0 x, 1 y, 2 z",
      .high = 2,
      .standard = 2,
-     .choices = kAxisChoices},
+     .choices = kAxisChoices,
+     .sought = Sought::listed,
+     .tried = kVertical},
 };
 
 Vec3 ram_droop(const TouchScene& scene, const double* theta, const double*) {
