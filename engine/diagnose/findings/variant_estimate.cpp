@@ -123,9 +123,10 @@ void VariantEstimate::solve(const Information& info, const std::set<int>& later,
   mean_.setZero(), covariance_.setZero();
   std::vector<Eigen::Index> kept = telling(variant_, info.g, later);
   if (only) std::erase_if(kept, [&](Eigen::Index k) { return variant_.columns[k].parameter != *only; });
-  const Cholesky root(info.g(kept, kept), 1 / (kWidest * kWidest));
-  mean_(kept) = root.solve(Vector(info.u(kept)));
-  covariance_(kept, kept) = root.inverse();
+  const Eigen::Map<const Eigen::Array<Eigen::Index, Eigen::Dynamic, 1>> at(kept.data(), std::ssize(kept));
+  const Cholesky root(info.g(at, at), 1 / (kWidest * kWidest));
+  mean_(at) = root.solve(Vector(info.u(at)));
+  covariance_(at, at) = root.inverse();
 }
 
 std::optional<VariantEstimate::Motion> VariantEstimate::motion(int parameter) const {
