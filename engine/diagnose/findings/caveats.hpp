@@ -57,12 +57,15 @@ inline constexpr const char* kSeldomNew =
     " A part seldom changes its form between two runs: a tip that was changed or damaged in between may look like it. Touch "
     "the same places in another orientation of the head, or with the tip that was used before.";
 
+inline constexpr const char* kSeenOnce =
+    " Fewer than two periods of it were recorded: what came once and went, as through an open door, looks the same. Record for longer.";
+
 inline constexpr const char* kSamePhase =
     " Wherever touches have the same direction, the scale was at the same phase: a pattern over direction would look the "
     "same. Repeat it with the part moved by a third of the period.";
 
 inline constexpr const char* kUnproven =
-    " It is believed by half at most, because touches that the model had not seen are not predicted better beyond doubt.";
+    " It is believed by half at most, because touches that the model had not seen are predicted better by no more than chance may do.";
 
 /// Whether what displaces touches by `largest_um` at most may be the rounding of positions: by less than their step, where
 /// that counts for more than the noise of the probe. One point touched again is rounded alike each time.

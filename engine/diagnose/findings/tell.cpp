@@ -48,13 +48,24 @@ bool is_same_phase(const Case& c, const Finding& f) {
       SameDirection(c.touches, c.rows).is_alike(c.explanations.variants[f.variant].signature);
 }
 
+/// Whether it swings so slowly that the recording holds fewer than two periods: what came once and went looks the same.
+bool seen_less_than_twice(const Case& c, const Effect& effect, const std::vector<DiagnosedParameter>& told) {
+  return std::any_of(effect.parameters.begin(), effect.parameters.end(), [&](const EffectParameter& p) {
+    return p.sought == Sought::period && std::any_of(told.begin(), told.end(), [&](const DiagnosedParameter& t) {
+             return t.name == p.name && 2 * t.value > lasts_s(c.touches);
+           });
+  });
+}
+
 /// Why a name is believed by half at most.
 struct Doubts {
   bool rounding = false, same_phase = false, cancelled = false, large_errors = false, none_sure = false,
-       lasting = false;
+       lasting = false, once = false;
   bool others = false;  ///< that have no sentence of their own here, or one that stands elsewhere
 
-  bool any() const { return rounding || same_phase || cancelled || large_errors || none_sure || lasting || others; }
+  bool any() const {
+    return rounding || same_phase || cancelled || large_errors || none_sure || lasting || once || others;
+  }
 };
 
 /// `moved`: what each finding does (displacements.hpp). `e`: what is told of finding `k` so far.
@@ -69,6 +80,7 @@ Doubts doubts_of(const Case& c, const SearchResult& result, std::size_t k, const
   const Effect& effect = *c.explanations.list[f.explanation].effect;
   d.none_sure = none_is_sure(effect, e.parameters);
   d.lasting = effect.lasting && e.change.front().any() && begins_within_a_setup(c, e.change.front());
+  d.once = seen_less_than_twice(c, effect, e.parameters);
   const bool something_else = result.other || result.adequacy < kInadequate;
   d.others = something_else || of_several_sizes(f.sizes) || !judged(c, f) || !all_plausible(e.parameters) ||
       effect.only_spread;
@@ -137,8 +149,8 @@ void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
         pattern_beside(c, f) + not_of_one_size(f) +
         (doubts.large_errors ? beside_large_errors(out.baseline.geometry_scale) : "") +
         (doubts.same_phase ? kSamePhase : "") + (doubts.cancelled ? kNearlyCancelled : "") +
-        (doubts.none_sure ? kNoneIsSure : "") + (doubts.lasting ? kSeldomNew : "") + much_like_it(effect) +
-        what_does_nearly_the_same(effect, variant, e.parameters);
+        (doubts.none_sure ? kNoneIsSure : "") + (doubts.lasting ? kSeldomNew : "") + (doubts.once ? kSeenOnce : "") +
+        much_like_it(effect) + what_does_nearly_the_same(effect, variant, e.parameters);
     if (unproven && !doubts.any() && f.probability > kDoubted) e.sentence += unless_said(out.effects, kUnproven);
     for (const std::string& note :
          {whose_coordinates(c, effect), whose_direction(effect), whose_clock(c, effect),

@@ -166,14 +166,14 @@ std::string third_sentence(const Diagnosis& d) {
       ? (closer ? "it predicts better" : "something is there too, but not of the size that it has on the others")
       : clear && closer ? "it comes closer, but errs by more than it says that it may"
       : clear           ? "it predicts worse"
-      : gains && closer ? "it predicts better, though not beyond doubt"
+      : gains && closer ? "it predicts better, though part of that may be chance"
       : closer          ? "it cannot be told whether it predicts better"
                         : "it does not predict better";
   const auto shown = [](double um) { return fmt::format("{:.2f}", um); };
   if (gains && shown(i.rms_before_um) == shown(i.rms_after_um) && shown(i.bias_before_um) == shown(i.bias_after_um))
     return fmt::format(
         "Of {} that the model had not seen it says better how far they stray{}, and moves none: rms of what is left {:.2f} um.",
-        d.values.empty() ? "touches" : "values", clear ? "" : ", though not beyond doubt", i.rms_after_um);
+        d.values.empty() ? "touches" : "values", clear ? "" : ", though part of that may be chance", i.rms_after_um);
   return fmt::format(
       "On {} that the model had not seen {}: rms of what is left {:.2f} to {:.2f} um, bias where it acts {:.2f} to {:.2f} um.",
       d.values.empty() ? "touches" : "values", says, i.rms_before_um, i.rms_after_um, i.bias_before_um,
@@ -287,8 +287,9 @@ std::string baseline_in_words(const Diagnosis& d) {
                   shape, b.noise_um, b.stated_noise_um);
   if (b.correlation > 0) out += fmt::format(", neighbours correlated by {:.2f}", b.correlation);
   if (!b.outliers.empty())
-    out += fmt::format("; {} {} left out: {}", b.outliers.size(), b.outliers.size() == 1 ? "touch" : "touches",
-                       fmt::join(b.outliers, ", "));
+    out += fmt::format("; {} left out, far from where the others predict {}: {}",
+                       b.outliers.size() == 1 ? "1 touch" : fmt::format("{} touches", b.outliers.size()),
+                       b.outliers.size() == 1 ? "it" : "them", fmt::join(b.outliers, ", "));
   if (const auto& worst = d.worst_length)
     out += fmt::format("; of lengths the third worst is off by {:.2f} um over {:.0f} mm, where the MPE is {:.2f} um",
                        kUmPerMm * std::abs(worst->error_mm), worst->length_mm, kUmPerMm * worst->mpe_mm);

@@ -101,12 +101,28 @@ TEST_CASE("why a name is believed by half is said where nothing else says it") {
     Told t;
     change(t);
     t.tell();
-    return t.says("not predicted better beyond doubt");
+    return t.says("predicted better by no more than chance may do");
   };
   CHECK_FALSE(says_so([](Told&) {}));
   CHECK(says_so([](Told& t) { t.out.improvement->se = 21; }));
   CHECK(says_so([](Told& t) { t.out.improvement.reset(); }));
   CHECK_FALSE(says_so([](Told& t) { t.out.improvement->se = 21, t.result.adequacy = kInadequate / 2; }));
+}
+
+TEST_CASE("a swing that was recorded less than twice is believed by half at most") {
+  for (const double cycles : {1.5, 4.0}) {
+    Planted p(1);
+    const double azimuth_deg = 30, elevation_deg = 60, any_direction = 3;
+    p.plant("thermal.cycle", {2, lasts_s(p.c.touches) / cycles, 40, any_direction, azimuth_deg, elevation_deg});
+    p.find({"thermal.cycle"});
+    Diagnosis out;
+    out.improvement = Improvement{"leave-one-fifth-out", 20, 4};
+    tell_findings(p.c, p.result, out);
+    REQUIRE(out.effects.size() == 1);
+    const bool once = cycles < 2;
+    CHECK((out.effects[0].probability == kDoubted) == once);
+    CHECK((out.effects[0].sentence.find("Fewer than two periods of it were recorded") != std::string::npos) == once);
+  }
 }
 
 TEST_CASE("a change between runs in one placement takes for granted that the part lay still") {
