@@ -76,6 +76,10 @@ std::string to_check_certificate(const Case& c, Factor factor) {
   return "Check what is given of these features first, which costs no measurement: a wrong figure of a certificate looks like this. ";
 }
 
+/// What goes with the time on one feature, and on no other, may be scatter that this pattern fits. A wrong figure is the same at all times.
+constexpr const char* kMayScatter =
+    "The touches of one feature may only scatter, on a surface that is rough, dirty or not held fast: make each of them three times. What comes back each time is no scatter. ";
+
 constexpr const char* kClampAnew =
     "Clamp the part anew in the same place and repeat: what comes back is the part, what does not is its clamping. Give it a new setup.";
 
@@ -156,9 +160,11 @@ std::string to_look_at_the_feature(const Case& c, const SearchResult& result) {
 
 /// What makes the pattern that was found beside the names, or without any.
 std::string to_follow_the_pattern(const Case& c, const SearchResult& result) {
-  const Factor factor = c.explanations.list[result.other->explanation].factor;
+  const Explanation& pattern = c.explanations.list[result.other->explanation];
   if (std::string look = to_look_at_the_feature(c, result); !look.empty()) return look;
-  return to_check_certificate(c, factor) + to_follow_a_pattern(c, factor);
+  const std::string first =
+      pattern.shape == "one of them in time" ? kMayScatter : to_check_certificate(c, pattern.factor);
+  return first + to_follow_a_pattern(c, pattern.factor);
 }
 
 /// What the names that were found miss before they can be judged.

@@ -89,6 +89,9 @@ TEST_CASE("a calibrated feature that strays may have a wrong figure in its certi
   LeavesMore p;
   p.find_pattern_over(Factor::feature);
   CHECK(p.says().starts_with("Check what is given of these features first"));
+  p.c.explanations.list.back().shape = "one of them in time";
+  CHECK(p.says().starts_with("The touches of one feature may only scatter"));
+  p.c.explanations.list.back().shape = "size";
   p.c.baseline.surfaces = Surfaces::unknown;
   CHECK_FALSE(p.says().starts_with("Check"));
 }
