@@ -44,6 +44,17 @@ std::optional<Rigid> carried(const Known& here, const Known& first) {
   return X;
 }
 
+/// Those of features of which the other knows as many: where touches were left out, those after them may be numbered anew.
+Known of_whole_features(const Known& here, const Known& other) {
+  std::map<std::string, int> more;
+  for (const auto& [key, point] : here) ++more[key.first];
+  for (const auto& [key, point] : other) --more[key.first];
+  Known out;
+  for (const auto& [key, point] : here)
+    if (more.at(key.first) == 0) out.emplace(key, point);
+  return out;
+}
+
 /// To 1 um and 1 urad.
 std::array<long, 12> rounded(const Rigid& X) {
   std::array<long, 12> key{};
@@ -91,6 +102,7 @@ PartFrames::PartFrames(const std::vector<AimedTouch>& touches) {
   const Rigid X_P1{Mat3{}, -middle(first)};
   for (const auto& [setup, known] : points) {
     std::optional<Rigid> X_1W = carried(known, points[first]);
+    if (!X_1W) X_1W = carried(of_whole_features(known, points[first]), points[first]);
     if (!X_1W) X_1W = carried(centres[setup], centres[first]);
     X_PW_[setup] = X_1W ? X_P1 * *X_1W : Rigid{Mat3{}, -middle(setup)};
   }

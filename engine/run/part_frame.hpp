@@ -7,8 +7,8 @@
 // In a recording those of its program; without a program those of the file where it is in part coordinates.
 // Else those of the machine in the first setup, with the centre of its targets as origin. Other setups are
 // brought onto them by what they share with it, with the best rigid transform (rigid_fit): the touches of the
-// same feature and index where these are the same points of the part, else the centres of the features that
-// are touched from enough sides to have one (balls, mostly). A setup that shares too little keeps the
+// same feature and index where these are the same points of the part, or those of them whose features have as
+// many touches in both, else the centres of the features that are touched from enough sides to have one (balls, mostly). A setup that shares too little keeps the
 // orientation of the machine's axes.
 #pragma once
 

@@ -87,6 +87,21 @@ TEST_CASE("the origin of a part is the middle of what was touched in its first p
   CHECK(norm(frames.on_part(2, turned * Vec3{80, 0, 0}) - expected) < 1e-9);
 }
 
+TEST_CASE("a part is where its whole features are, though others were touched less often and are numbered anew") {
+  std::vector<AimedTouch> touches;
+  const Rigid turned{rotation({0, 0, 1}, kPi / 2), {1000, 0, 0}};
+  const std::vector<Vec3> whole{{0, 0, 0}, {80, 0, 0}, {0, 40, 0}}, in_part{{0, 0, -10}, {30, 0, -10}, {80, 0, -10}};
+  const auto touch = [&](int setup, const char* feature, int index, const Vec3& at) {
+    touches.push_back({setup, feature, index, setup == 1 ? at : turned * at, {0, 0, 1}});
+  };
+  for (const int setup : {1, 2}) {
+    for (int k = 0; k < 3; ++k) touch(setup, "TOP", k + 1, whole[k]);
+    for (int k = setup - 1; k < 3; ++k) touch(setup, "SIDE", k + 2 - setup, in_part[k]);  // the first one is left out
+  }
+  const PartFrames frames(touches);
+  CHECK(norm(frames.on_part(2, turned * in_part[2]) - frames.on_part(1, in_part[2])) < 1e-9);
+}
+
 TEST_CASE("of coordinate systems used as often the first is the part's") {
   const Rigid first{{}, {10, 0, 0}}, second{{}, {5, 0, 0}};
   FrameCount frames;
