@@ -60,9 +60,12 @@ struct Stretch {
 class Design {
  public:
   Design(const Case& c, const EvidenceSearch& search, const Power& power)
-      : all_(c.explanations), touches_(c.touches), rows_(c.rows), search_(search), power_(power) {
-    for (int b = 0; b < static_cast<int>(all_.variants.size()); ++b)
-      diagonal_.push_back(search.between(b, b).diagonal());
+      : all_(c.explanations),
+        touches_(c.touches),
+        rows_(c.rows),
+        search_(search),
+        power_(power),
+        diagonal_(all_.variants.size()) {
     std::vector<double> log_belief;
     for (const Explanation& e : all_.list) {
       const auto first_variant = static_cast<Eigen::Index>(variants_.size()),
@@ -126,6 +129,7 @@ class Design {
   /// A further variant, with its belief before the shift by size, and the determinant.
   void add(int b, double log_prior, std::vector<double>& log_belief) {
     const Matrix g = search_.between(b, b);
+    diagonal_[b] = g.diagonal();
     const Spectrum of_g = spectrum(g);
     const Vector information = of_g.values.cwiseMax(1e-9 * (g.trace() + 1e-300));
     const std::vector<Size> sizes = search_.sizes(b);

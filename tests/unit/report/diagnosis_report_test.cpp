@@ -221,6 +221,12 @@ TEST_CASE("what the names leave, and lengths beyond the specification, are told 
   CHECK(says(first_sentence(d), "wrong by 12 um, where the specification allows 3.5 um"));
 }
 
+TEST_CASE("the table tells in which run a name is new") {
+  Diagnosis d = named();
+  d.effects.front().change = {{.from = 2}};
+  CHECK(says(diagnosis_text(d), "machine.squareness, new in run 2"));
+}
+
 TEST_CASE("JSON has each figure under its own name") {
   Diagnosis d = named();
   DiagnosedEffect& e = d.effects.front();
