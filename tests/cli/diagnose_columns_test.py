@@ -314,8 +314,6 @@ class Columns(harness.Case):
         self.assertEqual(unjudged(whole, "noise.unequal"), [])
         entry, = unjudged(upright, "noise.unequal")
         self.assertEqual((entry["missing"], entry["constant"], entry["too_few"]), (columns, ["head_A_deg", "speed_mm_s"], ["sensor"]))
-        entry, = unjudged(few, "head.reindexing")
-        self.assertEqual((entry["missing"], entry["constant"], entry["too_few"]), (["visit"], [], ["visit"]))
         told = self.abbe("diagnose", few, "--machine", MACHINE, "--design-only").stdout
         self.assertRegex(told, "noise.unequal +missing: time_s; the same throughout: speed_mm_s; fewer than 20 touches in another orientation or with longer styli: head_A_deg, sensor")
         self.assertRegex(told, "head.reindexing +fewer than three indexings: visit")

@@ -2,6 +2,7 @@
 from harness.Case and ends with harness.main()."""
 import csv
 import io
+import itertools
 import json
 import pathlib
 import pty
@@ -57,6 +58,11 @@ def balls(centres, directions):
     return LENGTH.split("D(R)=")[0] + "".join(
         f"F(B{k})=FEAT/SPHERE,OUTER,CART,{','.join(map(str, centre))},30\nMEAS/SPHERE,F(B{k}),{len(directions)}\n{touches(centre)}ENDMES\n"
         for k, centre in enumerate(centres)) + "ENDFIL\n"
+
+
+def at_least(count, outcomes):
+    """Whether so many outcomes hold, of which no more are asked for than that takes."""
+    return sum(1 for _ in itertools.islice(filter(None, outcomes), count)) == count
 
 
 class Case(unittest.TestCase):
