@@ -36,12 +36,13 @@ Vector without_placement(const LinearModel& m) {
 }
 
 std::optional<LengthError> worst_length(const RecordedTouches& t, const Vector& residuals_um,
-                                        const Specification& specification) {
+                                        const Specification& specification, const std::vector<char>& left_out) {
   constexpr int kCount = 3;
   constexpr double kLeast_mm = 1;
   LengthError worst;
   // Each touch once: a dirty one is in as many lengths as it has partners.
-  std::vector<char> used(t.touches.size(), 0);
+  std::vector<char> used = left_out;
+  used.resize(t.touches.size(), 0);
   for (int k = 0; k < kCount; ++k) {
     worst = {};
     std::size_t from = 0, to = 0;

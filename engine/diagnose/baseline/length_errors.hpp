@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "engine/diagnose/diagnosis.hpp"
 #include "engine/diagnose/model/linear.hpp"
@@ -17,8 +18,10 @@ Vector without_placement(const LinearModel&);
 
 /// The worst length, as a share of its MPE, but for the two that are worse: one touch of dirt spoils several.
 /// Lengths of one setup, run and qualified tip, whose ends are touched along them. Nothing where there are no
-/// such lengths. `residuals_um`: without_placement(), for normals are never quite along a length.
-std::optional<LengthError> worst_length(const RecordedTouches&, const Vector& residuals_um, const Specification&);
+/// such lengths. `residuals_um`: without_placement(), for normals are never quite along a length. `left_out`, by touch: outliers;
+/// none where they are not known yet.
+std::optional<LengthError> worst_length(const RecordedTouches&, const Vector& residuals_um, const Specification&,
+                                        const std::vector<char>& left_out = {});
 
 /// That length, where it is worse than what any machine of this specification makes of it, elsewhere in its
 /// volume and with other styli than in the acceptance test: by half as much again as its MPE, and what two

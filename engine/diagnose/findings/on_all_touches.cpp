@@ -20,13 +20,16 @@ std::vector<Matrix> on_all_touches(const Case& c, const std::vector<Finding>& fi
 }
 
 std::optional<LengthError> beyond_beside_names(const Case& c, const SearchResult& result) {
-  const std::vector<Matrix> found = on_all_touches(c, result.findings);
   LinearModel left = c.baseline.model;
-  const Matrix named = side_by_side(left.y.size(), pointers_to(found));
-  const Precision precision(likelier_ensemble(c, c.model), result.hyper_of_likelier);
-  const Precision::Seen seen = precision.seen(named(c.rows, Eigen::all));
-  left.y -= named * Cholesky(inner(seen, seen), 1 / (kWidest * kWidest)).solve(inner(seen, precision.y()));
-  return beyond_specification(worst_length(c.touches, without_placement(left), c.machine->specification), *c.machine);
+  if (!result.findings.empty()) {
+    const std::vector<Matrix> found = on_all_touches(c, result.findings);
+    const Matrix named = side_by_side(left.y.size(), pointers_to(found));
+    const Precision precision(likelier_ensemble(c, c.model), result.hyper_of_likelier);
+    const Precision::Seen seen = precision.seen(named(c.rows, Eigen::all));
+    left.y -= named * Cholesky(inner(seen, seen), 1 / (kWidest * kWidest)).solve(inner(seen, precision.y()));
+  }
+  return beyond_specification(worst_length(c.touches, without_placement(left), c.machine->specification, c.masked),
+                              *c.machine);
 }
 
 }  // namespace abbe::diagnose

@@ -11,7 +11,7 @@ namespace abbe::diagnose {
 /// By finding, um per standard deviation.
 std::vector<Matrix> on_all_touches(const Case&, const std::vector<Finding>&);
 
-/// A length that is beyond the specification, without what was named as large as it is.
+/// A length that is beyond the specification, without what was named as large as it is, and without gross outliers.
 std::optional<LengthError> beyond_beside_names(const Case&, const SearchResult&);
 
 }  // namespace abbe::diagnose
