@@ -1,11 +1,15 @@
 #include "engine/diagnose/values/value_diagnosis.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
+#include <set>
 #include <utility>
+#include <vector>
 
 #include "engine/diagnose/baseline/rough_geometry.hpp"
 #include "engine/diagnose/explanations/catalogue.hpp"
@@ -68,29 +72,31 @@ ValueCase specified_case(const ValueRecording& recording, const std::vector<Valu
   return std::move(*c);
 }
 
-/// Where values stray most: at one characteristic, and in one run of several where the others stray less than half as far.
+/// Where values stray most: at one characteristic, and in those of its runs that stray at least half as far as the one that does
+/// most, unless all do.
 Location strongest(const std::vector<JudgedValue>& values) {
-  struct Strayed {
-    double squares = 0, least_p = 1;
-    int values = 0;
-    const JudgedValue* furthest = nullptr;
+  std::map<std::pair<std::string, std::string>, std::vector<const JudgedValue*>> by_characteristic;
+  for (const JudgedValue& v : values) by_characteristic[{v.characteristic, v.program}].push_back(&v);
+  const auto squares = [](const std::vector<const JudgedValue*>& of) {
+    double sum = 0;
+    for (const JudgedValue* v : of) sum += v->z * v->z;
+    return sum;
   };
-  std::map<std::pair<std::string, std::string>, Strayed> by_characteristic;
-  double all = 0;
-  for (const JudgedValue& v : values) {
-    Strayed& s = by_characteristic[{v.characteristic, v.program}];
-    all += v.z * v.z, s.squares += v.z * v.z, s.values += 1;
-    s.least_p = std::min(s.least_p, v.p);
-    if (!s.furthest || std::abs(v.z) > std::abs(s.furthest->z)) s.furthest = &v;
-  }
-  const auto less = [](const auto& a, const auto& b) { return a.second.squares < b.second.squares; };
-  const auto& [name, strayed] = *std::max_element(by_characteristic.begin(), by_characteristic.end(), less);
-  const double own = strayed.furthest->z * strayed.furthest->z, others = strayed.squares - own;
-  const bool in_one_run = 4 * others <= own * double(strayed.values - 1);
+  const auto less = [&](const auto& a, const auto& b) { return squares(a.second) < squares(b.second); };
+  const auto& [name, mine] = *std::max_element(by_characteristic.begin(), by_characteristic.end(), less);
+  double all = 0, most = 0, least_p = 1;
+  for (const JudgedValue& v : values) all += v.z * v.z;
+  for (const JudgedValue* v : mine) most = std::max(most, std::abs(v->z)), least_p = std::min(least_p, v->p);
+  std::vector<const JudgedValue*> stray;
+  std::copy_if(mine.begin(), mine.end(), std::back_inserter(stray),
+               [&](const JudgedValue* v) { return 2 * std::abs(v->z) >= most; });
+  std::set<int> runs;
+  for (const JudgedValue* v : stray) runs.insert(v->run);
   Location out{"feature", {{"characteristic", name.first}, {"program", name.second}}};
-  if (in_one_run) out.where.emplace_back("run", std::to_string(strayed.furthest->run));
-  out.share = (in_one_run ? own : strayed.squares) / all;
-  out.p = std::min(1.0, strayed.least_p * double(values.size()));
+  if (mine.size() == 1 || stray.size() < mine.size())
+    out.where.emplace_back("run", fmt::format("{}", fmt::join(runs, ", ")));
+  out.share = squares(stray) / all;
+  out.p = std::min(1.0, least_p * double(values.size()));
   return out;
 }
 
