@@ -71,12 +71,12 @@ Recording ready(const Recording& recorded, const Machine& machine, const Diagnos
   leave_out_targets(once, file, messages);
   doubt_temperatures(once, file, messages);
   doubt_motion(once, file, messages);
+  leave_out_clock_at_rest(once, file, messages);
   leave_out_partly_logged(once, file, messages);
   leave_out_head_at_rest(once, machine, file, messages);
   leave_out_constant_travel(once, file, messages);
   leave_out_readings_without_phase(once, file, messages);
   leave_out_commanded_readings(once, file, messages);
-  leave_out_clock_at_rest(once, file, messages);
   continue_past_midnight(once, file, messages);
   continue_where_put_back(once, file, messages);
   continue_from_run_to_run(once, file, messages);
@@ -233,7 +233,7 @@ void tell_power(const Case& c, const EvidenceSearch& search, Diagnosis& out) {
 void tell_machine(const Case& c, const SearchResult& result, const std::string& file, Diagnosis& out) {
   const bool known = out.baseline.known;
   const bool named = !result.findings.empty();
-  if (const auto beyond = named && out.beyond ? beyond_beside_names(c, result) : out.beyond)
+  if (const auto beyond = out.beyond ? beyond_beside_names(c, result) : std::nullopt)
     out.messages.push_back(beyond_its_specification(*beyond, named, file));
   const bool only_noise = result.findings.empty() && !result.other;
   if (!known && only_noise && !out.beyond && out.baseline.geometry_scale >= kLargeErrors)

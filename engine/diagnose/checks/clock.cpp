@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <span>
 #include <utility>
@@ -50,14 +51,18 @@ void continue_past_midnight(Recording& recording, const std::string& file, std::
 
 void leave_out_clock_at_rest(Recording& recording, const std::string& file, std::vector<Diagnostic>& messages) {
   constexpr std::size_t kFew = 3;
-  const std::vector<RecordingRow*> timed = with_a_time(recording.rows);
-  const auto moves = [&](const RecordingRow* row) { return *row->time_s != *timed.front()->time_s; };
-  if (timed.size() < kFew || std::any_of(timed.begin(), timed.end(), moves)) return;
-  messages.push_back(diagnostic(
-      Code::W0738,
-      fmt::format("{}: its clock stands at {:g} s at all touches; it is not used", file, *timed.front()->time_s),
-      "write the time of each touch into time_s, or leave the column out"));
-  for (RecordingRow* row : timed) row->time_s.reset();
+  std::map<int, std::vector<RecordingRow*>> by_file;
+  for (RecordingRow* row : with_a_time(recording.rows)) by_file[row->file].push_back(row);
+  for (const auto& [number, rows] : by_file) {
+    const RecordingRow& first = *rows.front();
+    const auto moves = [&](const RecordingRow* row) { return *row->time_s != *first.time_s; };
+    if (rows.size() < kFew || std::any_of(rows.begin(), rows.end(), moves)) continue;
+    messages.push_back(diagnostic(Code::W0738,
+                                  fmt::format("{}: its clock stands at {:g} s at all touches; it is not used",
+                                              file_of(recording, first, file), *first.time_s),
+                                  "write the time of each touch into time_s, or leave the column out"));
+    for (RecordingRow* row : rows) row->time_s.reset();
+  }
 }
 
 void continue_where_put_back(Recording& recording, const std::string& file, std::vector<Diagnostic>& messages) {
@@ -66,16 +71,15 @@ void continue_where_put_back(Recording& recording, const std::string& file, std:
     const char* where;
   } hands[] = {{kHour_s, "where summer time ends"}, {12 * kHour_s, "on a clock of twelve hours"}};
   const std::vector<RecordingRow*> rows = with_a_time(recording.rows);
-  double longest_s = 0;  // from a touch to the next
   std::vector<std::size_t> falls;
-  for (std::size_t i = 1; i < rows.size(); ++i) {
-    const double step_s = *rows[i]->time_s - *rows[i - 1]->time_s;
-    longest_s = std::max(longest_s, step_s);
-    if (step_s < 0) falls.push_back(i);
-  }
+  for (std::size_t i = 1; i < rows.size(); ++i)
+    if (is_earlier(rows[i], rows[i - 1])) falls.push_back(i);
   if (falls.size() != 1) return;
   const RecordingRow &before = *rows[falls.front() - 1], &after = *rows[falls.front()];
   if (before.run != after.run || before.setup != after.setup) return;
+  double longest_s = 0;  // from a touch to the next; one that goes ahead and falls back at once is a single wrong time
+  for (std::size_t i = 1; i < rows.size(); ++i)
+    if (i + 1 != falls.front()) longest_s = std::max(longest_s, *rows[i]->time_s - *rows[i - 1]->time_s);
   for (const auto& [by_s, where] : hands) {
     const double passed_s = *after.time_s + by_s - *before.time_s;
     if (passed_s < 0 || passed_s > longest_s) continue;

@@ -12,7 +12,7 @@ namespace abbe::diagnose {
 /// A recording whose clock of the day falls back at midnight, with times that go on (N0727): what comes later in the file
 /// stands more than half a day before what comes first.
 void continue_past_midnight(Recording&, const std::string& file, std::vector<Diagnostic>& messages);
-/// A recording whose clock shows the same time at all its touches, without it (W0738).
+/// A recording without the clocks of files that show the same time at all their touches (W0738).
 void leave_out_clock_at_rest(Recording&, const std::string& file, std::vector<Diagnostic>& messages);
 /// A recording whose clock falls back within a run, and otherwise rises from row to row, with times that go on (N0734): by an
 /// hour, where summer time ends, or by the twelve hours of a clock that has no more, less the time of a touch.

@@ -272,7 +272,8 @@ Recording without_copies(const Recording& recorded, const std::string& file, std
                                           line_of(recorded, *at->second), line_of(recorded, row));
     if (!(at->second->position_mm == row.position_mm))
       throw UserError(diagnostic(Code::E0713,
-                                 fmt::format("{}: {} has two values at one time, in one setup and run", file, which),
+                                 fmt::format("{}: {} has two values {}, in one setup and run", file, which,
+                                             row.time_s ? "at one time" : "and no time"),
                                  "give repeats another 'run', a part that was moved another 'setup'"));
     if (copies++ == 0) first = which;
   }

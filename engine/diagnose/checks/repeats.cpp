@@ -1,6 +1,7 @@
 #include "engine/diagnose/checks/repeats.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
@@ -36,21 +37,25 @@ void number_repeats(Recording& recording, const std::string& file, std::vector<D
   for (const auto& [of, rows] : runs)
     for (std::size_t k = 0; k < rows.size(); k += rows_of_one_time(rows))
       numbers[{of.second, k / rows_of_one_time(rows)}] = of.second;
-  int last = numbers.begin()->second - 1, repeated = 0, counts_as = 0;
+  int last = numbers.begin()->second - 1, repeated = 0;
+  std::vector<int> count_as;  // the repeats of the first run that has any
   for (auto& [run, number] : numbers) {
     last = number = std::max(last + 1, run.first);
-    if (run.second == 1 && counts_as == 0) repeated = run.first, counts_as = number;
+    if (run.second == 1 && count_as.empty()) repeated = run.first;
+    if (run.second > 0 && run.first == repeated) count_as.push_back(number);
   }
-  if (counts_as == 0) return;
+  if (count_as.empty()) return;
   for (const auto& [of, rows] : runs) {
     const std::size_t count = rows_of_one_time(rows);
     for (std::size_t k = 0; k < rows.size(); ++k) rows[k]->run = numbers[{of.second, k / count}];
   }
-  messages.push_back(
-      diagnostic(Code::N0708,
-                 fmt::format("{}: run {} holds the same touches again, in the same order; those count as run {}", file,
-                             repeated, counts_as),
-                 "give each repeat a 'run' of its own"));
+  messages.push_back(diagnostic(
+      Code::N0708,
+      fmt::format("{}: run {} holds the same touches {}, in the same order; {}", file, repeated,
+                  count_as.size() == 1 ? "twice" : fmt::format("{} times", count_as.size() + 1),
+                  count_as.size() == 1 ? fmt::format("the second time counts as run {}", count_as.front())
+                                       : fmt::format("the later ones count as runs {}", fmt::join(count_as, ", "))),
+      "give each repeat a 'run' of its own"));
 }
 
 }  // namespace abbe::diagnose

@@ -232,10 +232,11 @@ TEST_CASE("clocks that are put back within a run go on") {
   }
   Recording other = set_by(13 * kHour_s - 152, 13 * kHour_s, kHour_s / 2), night = set_by(kDay_s - 152, kDay_s, kDay_s),
             again = set_by(13 * kHour_s - 152, 13 * kHour_s, kHour_s),
-            slow = set_by(13 * kHour_s - 152, 13 * kHour_s, kHour_s - 6);
+            slow = set_by(13 * kHour_s - 152, 13 * kHour_s, kHour_s - 6),
+            ahead = damaged([](RecordingRow&row) { *row.time_s += row.line == 9 ? 3000 : 0; });  // one wrong time
   for (RecordingRow& row : again.rows)
     if (*row.time_s < 13 * kHour_s - 152) row.run = 2;  // a new run may begin at any time
-  for (Recording* r : {&other, &night, &again, &slow}) CHECK(said_by(continue_where_put_back, *r).empty());
+  for (Recording* r : {&other, &night, &again, &slow, &ahead}) CHECK(said_by(continue_where_put_back, *r).empty());
 }
 
 TEST_CASE("a run whose touches are all there again is two runs") {
@@ -253,7 +254,10 @@ TEST_CASE("a run whose touches are all there again is two runs") {
     const auto told = said_by(number_repeats, *r);
     REQUIRE(told.size() == 1);
     CHECK(told[0].code == Code::N0708);
-    CHECK(holds(told[0].message, "run 2 holds the same touches again, in the same order; those count as run 3"));
+    CHECK(holds(told[0].message,
+                r == &twice
+                    ? "run 2 holds the same touches twice, in the same order; the second time counts as run 3"
+                    : "run 2 holds the same touches 3 times, in the same order; the later ones count as runs 3, 4"));
     for (std::size_t i = 0; i < r->rows.size(); ++i) CHECK(r->rows[i].run == 2 + int(i / 18));
   }
   // The runs after it count on, each of several setups has its own, and a ball that is looked at again is no repeat.
@@ -278,6 +282,12 @@ TEST_CASE("a clock that stands still is not used, and one that falls back once i
   for (const RecordingRow& row : still.rows) CHECK(!row.time_s);
   Recording runs = of_three_balls();
   CHECK(said_by(leave_out_clock_at_rest, runs).empty());
+  Recording two = damaged(
+      [](RecordingRow& row) { row.file = row.line > 10 ? 1 : 0, row.time_s = row.file == 1 ? 40 : *row.time_s; });
+  two.files = {"a.csv", "b.csv"};
+  const auto of_one = said_by(leave_out_clock_at_rest, two);
+  REQUIRE(of_one.size() == 1);
+  CHECK(holds(of_one[0].message, "b.csv: its clock stands at 40 s"));
 
   const Check doubts = [](Recording& r, const std::string& file, std::vector<Diagnostic>& messages) {
     doubt_fall(r, file, messages);
