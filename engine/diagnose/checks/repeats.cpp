@@ -35,8 +35,8 @@ void number_repeats(Recording& recording, const std::string& file, std::vector<D
   for (RecordingRow& row : recording.rows) runs[{row.setup, row.run}].push_back(&row);
   std::map<std::pair<int, std::size_t>, int> numbers;  // by run, and how many times it was made before
   for (const auto& [of, rows] : runs)
-    for (std::size_t k = 0; k < rows.size(); k += rows_of_one_time(rows))
-      numbers[{of.second, k / rows_of_one_time(rows)}] = of.second;
+    for (std::size_t k = 0, count = rows_of_one_time(rows); k < rows.size(); k += count)
+      numbers[{of.second, k / count}] = of.second;
   int last = numbers.begin()->second - 1, repeated = 0;
   std::vector<int> count_as;  // the repeats of the first run that has any
   for (auto& [run, number] : numbers) {

@@ -58,19 +58,13 @@ std::vector<double> setups(const RecordedTouches& t) {
   return list.size() > 2 ? std::vector<double>(list.begin(), list.end()) : std::vector<double>{0};
 }
 
-/// The probing speeds, if there are several but no more than a few; 0 stands for none. Those that a control holds only roughly are
-/// one.
-std::vector<double> speeds(const RecordedTouches& t) {
-  constexpr double kAlike = 1.15;
+/// The probing speeds, if there are several but no more than a few; 0 stands for none.
+std::vector<double> qualified_at(const RecordedTouches& t) {
   constexpr std::size_t kFew = 5;
-  std::vector<double> all, list{0};
-  for (const RecordedTouch& touch : t.touches) all.push_back(touch.scene.speed_mm_s);
-  std::sort(all.begin(), all.end());
-  for (auto first = all.begin(), last = first; first != all.end(); first = last) {
-    last = std::find_if(first, all.end(), [&](double speed) { return speed > kAlike * *first; });
-    list.push_back(*(first + (last - first) / 2));
-  }
-  return list.size() > 2 && list.size() <= 1 + kFew ? list : std::vector<double>{0};
+  std::vector<double> list = speeds_in(t);
+  if (list.size() < 2 || list.size() > kFew) list.clear();
+  list.insert(list.begin(), 0);
+  return list;
 }
 
 std::vector<double> codes(const EffectParameter& p) {
@@ -155,6 +149,18 @@ double quickest_of_a_room_s(double duration_s) {
   return std::max({kOfARoom_s, std::min(kUsually_s, duration_s / kFewCycles), duration_s / kManyCycles});
 }
 
+std::vector<double> speeds_in(const RecordedTouches& t) {
+  constexpr double kAlike = 1.15;
+  std::vector<double> all, list;
+  for (const RecordedTouch& touch : t.touches) all.push_back(touch.scene.speed_mm_s);
+  std::sort(all.begin(), all.end());
+  for (auto first = all.begin(), last = first; first != all.end(); first = last) {
+    last = std::find_if(first, all.end(), [&](double speed) { return speed > kAlike * *first; });
+    list.push_back(*(first + (last - first) / 2));
+  }
+  return list;
+}
+
 std::vector<TriedValue> moments_between(const std::vector<double>& ends_s, std::size_t parts) {
   const std::size_t gaps = ends_s.empty() ? 0 : ends_s.size() - 1, count = std::min(parts, gaps);
   std::vector<TriedValue> list;
@@ -187,7 +193,7 @@ ParameterGrid grid_of(const EffectParameter& p, const RecordedTouches& t, double
     case Sought::direction: return {.kind = ParameterGrid::Kind::direction};
     case Sought::stylus: return each_for_itself(ordinals(t.styli.size()));
     case Sought::setup: return each_for_itself(setups(t));
-    case Sought::speed: return each_for_itself(speeds(t));
+    case Sought::speed: return each_for_itself(qualified_at(t));
     case Sought::tip: return each_for_itself(ordinals(t.tips > int(t.styli.size()) ? std::size_t(t.tips) : 0));
     case Sought::not_at_all: break;
   }

@@ -42,6 +42,9 @@ ParameterGrid grid_of(const EffectParameter&, const RecordedTouches&, double lea
 /// of fewer gaps than parts, each is one.
 std::vector<TriedValue> moments_between(const std::vector<double>& ends_s, std::size_t parts);
 
+/// The probing speeds, mm/s, ascending. Those that a control holds only roughly are one.
+std::vector<double> speeds_in(const RecordedTouches&);
+
 /// The shortest period that is sought as that of a room's control, in a recording of this duration: ten minutes, as few
 /// controls switch more often; in a short recording a fourteenth of it, but not below two minutes, which no frame follows;
 /// of more than three days and a half, in which there would be too many to try, one of 500 cycles.

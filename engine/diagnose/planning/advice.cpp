@@ -9,6 +9,7 @@
 #include <set>
 #include <utility>
 
+#include "engine/diagnose/explanations/parameter_grid.hpp"
 #include "engine/diagnose/findings/belief.hpp"
 #include "engine/diagnose/findings/caveats.hpp"
 #include "engine/diagnose/findings/displacements.hpp"
@@ -60,15 +61,7 @@ bool elsewhere(const TouchScene& a, const TouchScene& b) {
   return norm(a.point - b.point) > kFar_mm || turned(a, b);
 }
 
-bool has_three_speeds(const Case& c) {
-  constexpr double kAnother = 1.1;
-  std::vector<double> speeds;
-  for (const int row : c.rows) speeds.push_back(c.touches.touches[row].scene.speed_mm_s);
-  std::sort(speeds.begin(), speeds.end());
-  const auto above = [&](double speed) { return std::upper_bound(speeds.begin(), speeds.end(), kAnother * speed); };
-  const auto second = above(speeds.front());
-  return second != speeds.end() && above(*second) != speeds.end();
-}
+bool has_three_speeds(const Case& c) { return speeds_in(c.touches).size() >= 3; }
 
 /// A wrong figure of a certificate makes its feature stray by itself.
 std::string to_check_certificate(const Case& c, Factor factor) {

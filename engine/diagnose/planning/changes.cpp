@@ -146,8 +146,8 @@ void add_placements(const Case& c, std::vector<Change>& list) {
   const auto tilted = [&](char name, const Vec3& axis) {  // to the side on which more can be touched
     constexpr double kTilt_rad = kPi / 9;
     const bool back = beyond_reach(c, rotation(axis, -kTilt_rad)) < beyond_reach(c, rotation(axis, kTilt_rad));
-    turned(fmt::format("tilted by {:.0f} degrees about {}", in_degrees(back ? -kTilt_rad : kTilt_rad), name), axis,
-           back ? -kTilt_rad : kTilt_rad);
+    const double by_rad = back ? -kTilt_rad : kTilt_rad;
+    turned(fmt::format("tilted by {:.0f} degrees about {}", in_degrees(by_rad), name), axis, by_rad);
   };
   tilted('X', {1, 0, 0}), tilted('Y', {0, 1, 0});
   const double height = room_above_or_below(c);
