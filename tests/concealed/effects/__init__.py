@@ -7,5 +7,5 @@ from . import unknown_fifteenth, unknown_fourteenth, unknown_later  # noqa: F401
 from . import unknown_nineteenth, unknown_ninth  # noqa: F401
 from . import unknown_seventeenth, unknown_seventh, unknown_sixteenth, unknown_tenth  # noqa: F401
 from . import unknown_thirteenth, unknown_twelfth, unknown_twentieth, unknown_twentyfirst  # noqa: F401
-from . import unknown_twentysecond, unknown_twentythird  # noqa: F401
+from . import unknown_twentyfourth, unknown_twentysecond, unknown_twentythird  # noqa: F401
 from .base import CATALOGUE, Change, Effect  # noqa: F401
