@@ -21,6 +21,7 @@ try:
     import follow
     import plots
     import score
+    import summary
 except ModuleNotFoundError as missing:
     sys.exit(f"evidence: needs {missing.name} (Debian: python3-numpy)")
 
@@ -90,7 +91,8 @@ def blocks_of(result, followed, names, specifications, first):
         group = "before and after" if name.startswith("before_after") else f"figure {name}"
         figures.setdefault(group, []).extend([shown] if name in names else [])
     figures = {group: "\n\n".join(shown) or "No case of this round shows it." for group, shown in figures.items()}
-    return {"round": first, **score.tables(result), "ideal": ceiling.text(ceiling.rows()), "decoys": follow.text(followed), **figures}
+    head = {"headline": summary.headline(result), "in short": summary.in_short(result, followed)}
+    return {"round": first, **head, **score.tables(result), "ideal": ceiling.text(ceiling.rows()), "decoys": follow.text(followed), **figures}
 
 
 def main(argv=None):
