@@ -65,8 +65,9 @@ bool holds_targets_only(const Recording& r) {
 /// The recording without what its file does wrong, with every part on its targets.
 Recording ready(const Recording& recorded, const Machine& machine, const DiagnoseOptions& options,
                 const std::string& file, std::vector<Diagnostic>& messages) {
-  Recording once = without_copies(recorded, file, messages);
-  number_repeats(once, file, messages);
+  Recording numbered = recorded;
+  number_repeats(numbered, file, messages);
+  Recording once = without_copies(numbered, file, messages);
   check_data(once, machine, file);
   leave_out_targets(once, file, messages);
   doubt_temperatures(once, file, messages);

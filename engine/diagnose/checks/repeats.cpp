@@ -16,15 +16,22 @@ bool same_touch(const RecordingRow* a, const RecordingRow* b) {
   return a->feature == b->feature && a->touch == b->touch && a->sensor == b->sensor;
 }
 
+/// Not the same row once more: it was made at another time or, where no time is known, gave another position.
+bool made_anew(const RecordingRow* a, const RecordingRow* b) {
+  return a->time_s != b->time_s || (!a->time_s && !(a->position_mm == b->position_mm));
+}
+
 /// After how many rows the first touch comes again, if all of them do so once at least, in their order; else all of the rows.
 std::size_t rows_of_one_time(const std::vector<RecordingRow*>& rows) {
   constexpr std::size_t kFew = 5;
   const auto again = std::find_if(rows.begin() + 1, rows.end(),
                                   [&](const RecordingRow* row) { return same_touch(row, rows.front()); });
   const auto count = static_cast<std::size_t>(again - rows.begin());
-  const bool repeats =
-      count >= kFew && rows.size() >= 2 * count && std::equal(again, rows.end(), rows.begin(), same_touch);
-  return repeats ? count : rows.size();
+  if (count < kFew || rows.size() < 2 * count || !std::equal(again, rows.end(), rows.begin(), same_touch))
+    return rows.size();
+  std::size_t anew = 0;  // two decimals repeat by themselves now and then
+  for (std::size_t k = count; k < rows.size(); ++k) anew += made_anew(rows[k], rows[k % count]) ? 1 : 0;
+  return 2 * anew >= rows.size() - count ? count : rows.size();
 }
 
 }  // namespace

@@ -272,6 +272,17 @@ TEST_CASE("a run whose touches are all there again is two runs") {
   std::rotate(balls.rows.begin() + 6, balls.rows.begin() + 18, balls.rows.end());  // the first ball between the others
   Recording numbered = of_three_balls();
   for (Recording* r : {&looked_at, &balls, &numbered}) CHECK(said_by(number_repeats, *r).empty());
+  // Without a time the positions tell a repeat from rows that were copied.
+  Recording copied = again(2, 18), anew = again(2, 18);
+  for (Recording* r : {&copied, &anew})
+    for (RecordingRow& row : r->rows) row.time_s.reset();
+  for (std::size_t i = 18; i < anew.rows.size(); ++i) anew.rows[i].position_mm.x += 1e-4 * double(i % 3);
+  CHECK(said_by(number_repeats, copied).empty());
+  CHECK(said_by(number_repeats, anew).size() == 1);
+  Recording at_one_time = again(2, 18);
+  for (std::size_t i = 18; i < 36; ++i)
+    at_one_time.rows[i].time_s = at_one_time.rows[i - 18].time_s, at_one_time.rows[i].position_mm.x += 1e-4;
+  CHECK(said_by(number_repeats, at_one_time).empty());
 }
 
 TEST_CASE("a clock that stands still is not used, and one that falls back once is doubted") {
