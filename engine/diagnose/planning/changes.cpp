@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "engine/diagnose/planning/reach.hpp"
 #include "engine/diagnose/quantile.hpp"
@@ -53,6 +54,9 @@ void mount(RecordingRow& row, Machine& machine, const std::string& suffix, Alter
   row.qualification = row.qualification.value_or(1) + 1;
 }
 
+/// Styli are sold in steps of 10 mm.
+double sold_length_mm(double about_mm) { return std::max(1.0, std::round(about_mm / 10)) * 10; }
+
 /// Other styli and orientations of the head; only of styli that the machine file describes.
 void add_styli(const Case& c, std::vector<Change>& list) {
   const std::vector<RecordingRow>& rows = c.recording->rows;
@@ -64,14 +68,16 @@ void add_styli(const Case& c, std::vector<Change>& list) {
                   .minutes = 5,
                   .apply = [](RecordingRow& row, Machine&) { row.qualification = row.qualification.value_or(1) + 1; }});
   const double length = median_of(c, [](const TouchScene&s) { return s.stylus.length_mm; }),
-               other = length > 60 ? length / 3 : 2 * length;
+               other = sold_length_mm(length > 60 ? length / 3 : 2 * length);
   list.push_back({.text = fmt::format("repeat with a stylus of {:.0f} mm", other),
                   .instruction = fmt::format("mount a stylus of {:.0f} mm and qualify it", other),
                   .minutes = 5,
-                  .apply = [=](RecordingRow& row, Machine& machine) {
-                    mount(row, machine, fmt::format("_L{:.0f}", other),
-                          [&](NamedSensor& s) { s.tip_in_r_mm = other / norm(s.tip_in_r_mm) * s.tip_in_r_mm; });
-                  }});
+                  .apply =
+                      [=](RecordingRow& row, Machine& machine) {
+                        mount(row, machine, fmt::format("_L{:.0f}", other),
+                              [&](NamedSensor& s) { s.tip_in_r_mm = other / norm(s.tip_in_r_mm) * s.tip_in_r_mm; });
+                      },
+                  .mounted = fmt::format("a length of {:.0f} mm", other)});
   const double ball = 2 * median_of(c, [](const TouchScene&s) { return s.stylus.radius_mm; }),
                other_ball = ball > 3 ? ball / 2 : 2 * ball;
   list.push_back(
@@ -79,12 +85,14 @@ void add_styli(const Case& c, std::vector<Change>& list) {
        .instruction =
            fmt::format("mount a stylus of the same length with a ball of {:.3g} mm and qualify it", other_ball),
        .minutes = 5,
-       .apply = [=, centre = c.recording->point == RecordedPoint::tip_centre](RecordingRow& row, Machine& machine) {
-         const double by = other_ball / 2 - machine.sensors.at(*row.sensor).radius_mm;
-         mount(row, machine, fmt::format("_D{:.0f}", 1000 * other_ball),
-               [&](NamedSensor& s) { s.radius_mm = other_ball / 2; });
-         if (centre) *row.target_mm += by * *row.normal;  // the surface stays
-       }});
+       .apply =
+           [=, centre = c.recording->point == RecordedPoint::tip_centre](RecordingRow& row, Machine& machine) {
+             const double by = other_ball / 2 - machine.sensors.at(*row.sensor).radius_mm;
+             mount(row, machine, fmt::format("_D{:.0f}", 1000 * other_ball),
+                   [&](NamedSensor& s) { s.radius_mm = other_ball / 2; });
+             if (centre) *row.target_mm += by * *row.normal;  // the surface stays
+           },
+       .mounted = fmt::format("a ball of {:.3g} mm", other_ball)});
   // A star would reach other places of the part when it is turned.
   if (!std::all_of(rows.begin(), rows.end(),
                    [&](const RecordingRow& r) { return is_straight(c.machine->sensors.at(*r.sensor).tip_in_r_mm); }))
@@ -185,6 +193,27 @@ Change placed_anew(const std::string& how, const Rigid& move) {
           .move = move,
           .placed = how,
           .new_setup = true};
+}
+
+Change joined(const Change& a, const Change& b) {
+  if (a.move && b.move) {  // it is put down once
+    Change out = placed_anew(a.placed + " and then " + b.placed, *b.move * *a.move);
+    out.minutes = a.minutes + b.minutes;
+    return out;
+  }
+  constexpr std::string_view kRepeat = "repeat ";
+  const auto both = [](const std::string& x, const std::string& y, std::string_view between) {
+    return x.empty() || y.empty() ? x + y : x + std::string(between) + y;
+  };
+  const bool one_stylus = !a.mounted.empty() && !b.mounted.empty();
+  return {.text = a.text + " and " + b.text.substr(kRepeat.size()),
+          .instruction = one_stylus ? "mount a stylus with " + a.mounted + " and " + b.mounted + ", and qualify it"
+                                    : both(a.instruction, b.instruction, "; "),
+          .minutes = one_stylus ? a.minutes : a.minutes + b.minutes,
+          .apply = [a, b](RecordingRow& row, Machine& machine) { a.apply(row, machine), b.apply(row, machine); },
+          .move = a.move ? a.move : b.move,
+          .new_setup = a.new_setup || b.new_setup,
+          .reversed = a.reversed || b.reversed};
 }
 
 std::vector<Change> changes_for(const Case& c) {

@@ -20,6 +20,7 @@ struct Change {
   std::function<void(RecordingRow&, Machine&)> apply = [](RecordingRow&, Machine&) {};
   std::optional<Rigid> move{};  ///< of the part, in the coordinates of the recording
   std::string placed = {};      ///< how the part stands then: "turned by 90 degrees about the vertical"
+  std::string mounted = {};     ///< what the stylus that is mounted has: "a length of 40 mm"
   bool new_setup = false;       ///< the part is placed anew, or does not stay put to micrometres
   bool reversed = false;        ///< the sequence runs from its end to its beginning
   bool changes_touches = true;  ///< not only their order and time
@@ -32,6 +33,9 @@ inline bool is_straight(const Vec3& tip_in_r_mm) {
 
 /// The part is placed anew and aligned: moved so, which `how` tells as Change::placed does.
 Change placed_anew(const std::string& how, const Rigid& move);
+
+/// Both at once: a part is put down once, and one stylus has what both mount.
+Change joined(const Change&, const Change&);
 
 /// The changes that a recording like this one can hold.
 std::vector<Change> changes_for(const Case&);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string_view>
 
 #include "engine/base/on_threads.hpp"
 #include "engine/diagnose/explanations/catalogue.hpp"
@@ -141,26 +140,6 @@ double expected_probability(const std::vector<Contender>& list) {
     }
   }
   return expected;
-}
-
-/// Both changes at once.
-Change joined(const Change& a, const Change& b) {
-  if (a.move && b.move) {  // it is put down once
-    Change out = placed_anew(a.placed + " and then " + b.placed, *b.move * *a.move);
-    out.minutes = a.minutes + b.minutes;
-    return out;
-  }
-  constexpr std::string_view kRepeat = "repeat ";
-  const auto both = [](const std::string& x, const std::string& y, std::string_view between) {
-    return x.empty() || y.empty() ? x + y : x + std::string(between) + y;
-  };
-  return {.text = a.text + " and " + b.text.substr(kRepeat.size()),
-          .instruction = both(a.instruction, b.instruction, "; "),
-          .minutes = a.minutes + b.minutes,
-          .apply = [a, b](RecordingRow& row, Machine& machine) { a.apply(row, machine), b.apply(row, machine); },
-          .move = a.move ? a.move : b.move,
-          .new_setup = a.new_setup || b.new_setup,
-          .reversed = a.reversed || b.reversed};
 }
 
 struct Scored {

@@ -114,6 +114,22 @@ TEST_CASE("what faces away from the stylus after a change is not touched again")
   CHECK(turned->left_out == 0);
 }
 
+TEST_CASE("of two changes at once a part is put down once and one stylus is mounted") {
+  const TouchedBlock block;
+  const Change ball = block.change("stylus ball of"), length = block.change("stylus of"),
+               slow = block.change("probing speed");
+  const Change both = joined(ball, length);
+  CHECK(both.instruction == "mount a stylus with " + ball.mounted + " and " + length.mounted + ", and qualify it");
+  CHECK(both.minutes == ball.minutes);
+  CHECK(both.text == ball.text + " and with a" + length.text.substr(length.text.find(" stylus of")));
+  CHECK(joined(length, slow).instruction == length.instruction);
+  CHECK(joined(length, slow).minutes == length.minutes + slow.minutes);
+  const Change turned = block.change("turned by 90"), tilted = block.change("about Y");
+  const Change placed = joined(turned, tilted);
+  CHECK(placed.placed == turned.placed + " and then " + tilted.placed);
+  CHECK(placed.instruction.find("align it again") == placed.instruction.rfind("align it again"));
+}
+
 TEST_CASE("a part that is moved, or that was left for hours, is in another setup and all else in another run") {
   TouchedBlock block;
   for (RecordingRow& row : block.recording.rows) row.temp_part_C = 20;
