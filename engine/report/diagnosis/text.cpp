@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include "engine/diagnose/words.hpp"
@@ -227,11 +228,23 @@ std::string cannot_judge(const Diagnosis& d) {
   return out.empty() ? "" : "cannot be judged from this recording:\n" + out;
 }
 
+/// What a change tells apart: of a plan, one change may be the best for several questions.
+std::string what_tells(const std::vector<NextMeasurement>& list, const std::string& change) {
+  std::vector<std::string> told;
+  for (const NextMeasurement& n : list)
+    if (n.change == change)
+      told.push_back(
+          fmt::format("{} apart with probability {:.2f}", fmt::join(n.separates, " / "), n.expected_probability));
+  return fmt::format("tells {}", fmt::join(told, ", and "));
+}
+
 std::string what_next(const Diagnosis& d) {
   std::string out;
+  std::set<std::string> shown;
   for (const NextMeasurement& n : d.next_measurement)
-    out += fmt::format("  {} ({:.0f} min): tells {} apart with probability {:.2f}\n    {}\n", n.change,
-                       std::ceil(n.minutes), fmt::join(n.separates, " / "), n.expected_probability, n.instruction);
+    if (shown.insert(n.change).second)
+      out += fmt::format("  {} ({:.0f} min): {}\n    {}\n", n.change, std::ceil(n.minutes),
+                         what_tells(d.next_measurement, n.change), n.instruction);
   if (!d.next_measurement.empty())
     out +=
         "  The first as a DMIS program: on the page of --report, and in next_measurement of --format json. Its paths are not checked for collision.\n";

@@ -125,6 +125,19 @@ TEST_CASE("text and page say which touches were left out, and what to do with a 
   }
 }
 
+TEST_CASE("a change that is the best for two questions is proposed once") {
+  Diagnosis d = nothing_found();
+  d.judged = Judged::plan;
+  d.next_measurement = {{"repeat with probing speed 3 mm/s", "Run 2.", {"a.b", "c.d"}, 0.9, 40, ""},
+                        {"repeat with the part clamped anew", "Run 3.", {"e.f", "g.h"}, 0.8, 50, ""},
+                        {"repeat with probing speed 3 mm/s", "Run 2.", {"i.j", "k.l"}, 0.7, 40, ""}};
+  const std::string said = diagnosis_text(d);
+  CHECK(says(said,
+             "  repeat with probing speed 3 mm/s (40 min): tells a.b / c.d apart with probability 0.90, and i.j / "
+             "k.l apart with probability 0.70\n    Run 2.\n  repeat with the part clamped anew"));
+  CHECK(said.find("Run 2.") == said.rfind("Run 2."));
+}
+
 TEST_CASE("each name of a set has its own probability and size") {
   Diagnosis d = named();
   d.verdict = Verdict::one_of;
