@@ -110,12 +110,17 @@ void check_tips(const RecordedTouches& t, const std::string& file) {
       return std::abs(touch->residual_mm - out) < kAlike_mm;
     });
     if (touches.size() < kEnough || std::abs(out) < kLarge_mm || !alike) continue;
+    const bool elsewhere = std::any_of(features.begin(), features.end(), [&of = of](const auto& other) {
+      return other.first.first == of.first && other.first.second != of.second;
+    });
+    const std::string where = elsewhere ? fmt::format(" in setup {}", of.second) : "";
     for (const auto& [size, name] : {std::pair(radius, "radius"), std::pair(2 * radius, "diameter")})
       if (std::abs(std::abs(out) - size) < kAlike_mm)
         throw UserError(diagnostic(
             Code::E0701,
-            fmt::format("{}: every touch of '{}' is {:.3f} mm too far {} along its normal, which is the {} of its tip",
-                        file, t.features[of.first], std::abs(out), out > 0 ? "out" : "in", name),
+            fmt::format(
+                "{}: every touch of '{}'{} is {:.3f} mm too far {} along its normal, which is the {} of its tip", file,
+                t.features[of.first], where, std::abs(out), out > 0 ? "out" : "in", name),
             "check the compensation of that feature, INNER or OUTER, and whether its targets are tip centres; where it is really so, say '# surfaces: unknown'"));
   }
 }
