@@ -82,15 +82,19 @@ Recording ready(const Recording& recorded, const Machine& machine, const Diagnos
   continue_where_put_back(once, file, messages);
   continue_from_run_to_run(once, file, messages);
   doubt_fall(once, file, messages);
+  doubt_run_numbers(once, file, messages);
   count_from_first_touch(once, file, messages);
   Recording placed = put_on_targets(once, most_out_mm(once, machine, options), file, messages);
   leave_out_astray(placed, file, messages);
   return placed;
 }
 
-/// A plan has no positions that may be wrong, but it may be a recording of old, with the clock of the day.
+/// A plan may be a recording of old, with the clock of the day and with positions, of which none is looked at.
 Recording planned(Recording recorded, const std::string& file, std::vector<Diagnostic>& messages) {
+  for (RecordingRow& row : recorded.rows)
+    if (row.target_mm) row.position_mm = *row.target_mm;
   leave_out_clock_at_rest(recorded, file, messages);
+  doubt_run_numbers(recorded, file, messages);
   count_from_first_touch(recorded, file, messages);
   return recorded;
 }

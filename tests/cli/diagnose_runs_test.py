@@ -256,6 +256,14 @@ class DiagnoseRuns(harness.Case):
         self.assertEqual([e["name"] for e in now["effects"]], ["machine.squareness"])
         self.assertRegex(said["effects"][0]["sentence"], r"What is new in run 2 is explained by two axes not square: squareness \d+\.\d+ ± \d+\.\d+ urad")
 
+    def test_runs_that_are_numbered_against_the_clock_are_told(self):
+        """The number won in silence: what was new was gone, and no machine file had it."""
+        first, second = self.days()[:2]
+        numbered = [self.changed(f, lambda row, run=run: row | {"run": run}, f"{run}_{f.name}") for f, run in ((first, "2"), (second, "1"))]
+        told = "by the clock its runs were made in the order 2, 1; what is new in a run, or gone, goes by their numbers"
+        self.assertIn(told, self.said_of(*numbered))
+        self.assertNotIn("in the order", self.said_of(first, second))
+
     def test_what_is_gone_after_a_run_is_told(self):
         """A tip that was dirty until it was cleaned: no machine file needs it."""
         recordings = self.balls(4, {1: "probe.tip_radius:amplitude_um=4"})

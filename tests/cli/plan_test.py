@@ -28,6 +28,11 @@ class Plan(harness.Case):
     def row(self, effect):
         return next(d for d in self.plan()["smallest_detectable"] if d["effect"] == effect)
 
+    def test_no_position_is_looked_at(self):
+        """Rough ones were taken for those of a part with unknown surfaces, and nothing could be judged."""
+        anywhere = self.changed(self.record(), lambda row: row | {"x": "0", "y": row["x"], "z": repr(float(row["z"]) + 0.5)}, "anywhere.csv")
+        self.assertEqual(self.diagnosis(anywhere, "--design-only"), self.plan())
+
     def test_what_can_be_named_is_named(self):
         """Half as large again as what is told; the last one has richer rivals that could imitate it."""
         for effect in ("machine.backlash", "probe.pretravel_lobing", "probe.stylus_bending"):

@@ -1,6 +1,7 @@
 #include "engine/diagnose/checks/clock.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
@@ -146,6 +147,28 @@ void doubt_fall(const Recording& recording, const std::string& file, std::vector
       fmt::format("{}: its clock falls from {:g} s to {:g} s before '{}' touch {}, and nowhere else",
                   file_of(recording, after, file), *before.time_s, *after.time_s, after.feature, after.touch),
       "times count as they are: if a time is wrong, correct it; if rows do not stand in the order of the touches, all is well"));
+}
+
+void doubt_run_numbers(const Recording& recording, const std::string& file, std::vector<Diagnostic>& messages) {
+  std::map<int, std::pair<double, double>> lasted_s;  // by run: the first and the last touch
+  for (const RecordingRow& row : recording.rows) {
+    if (!row.time_s) return;
+    auto& [first_s, last_s] = lasted_s.try_emplace(row.run, *row.time_s, *row.time_s).first->second;
+    first_s = std::min(first_s, *row.time_s), last_s = std::max(last_s, *row.time_s);
+  }
+  std::vector<int> by_clock;
+  for (const auto& [run, lasted] : lasted_s) by_clock.push_back(run);
+  std::sort(by_clock.begin(), by_clock.end(), [&](int a, int b) { return lasted_s[a] < lasted_s[b]; });
+  const auto overlap = [&](int a, int b) { return lasted_s[a].second >= lasted_s[b].first; };
+  if (std::is_sorted(by_clock.begin(), by_clock.end()) ||
+      std::adjacent_find(by_clock.begin(), by_clock.end(), overlap) != by_clock.end())
+    return;
+  messages.push_back(diagnostic(
+      Code::N0708,
+      fmt::format(
+          "{}: by the clock its runs were made in the order {}; what is new in a run, or gone, goes by their numbers",
+          file, fmt::join(by_clock, ", ")),
+      "number runs in the order in which they were made; if the clock is that of the day, write times that go on from day to day"));
 }
 
 }  // namespace abbe::diagnose

@@ -28,4 +28,8 @@ void count_from_first_touch(Recording&, const std::string& file, std::vector<Dia
 /// Warns of a clock that falls back once within a run and rises at all other touches (W0728): times as they count in the end.
 void doubt_fall(const Recording&, const std::string& file, std::vector<Diagnostic>& messages);
 
+/// Says of runs that follow each other by the clock, but in another order than their numbers, that these count (N0708): a clock
+/// of the day may begin earlier on a later day.
+void doubt_run_numbers(const Recording&, const std::string& file, std::vector<Diagnostic>& messages);
+
 }  // namespace abbe::diagnose

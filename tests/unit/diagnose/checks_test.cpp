@@ -285,6 +285,27 @@ TEST_CASE("a run whose touches are all there again is two runs") {
   CHECK(said_by(number_repeats, at_one_time).empty());
 }
 
+TEST_CASE("runs that are numbered against the clock are told") {
+  const auto said = [](const std::vector<int>& order, double each_s, bool timed = true) {
+    Recording all;
+    for (std::size_t k = 0; k < order.size(); ++k)
+      for (RecordingRow row : of_three_balls().rows)
+        row.run = order[k], *row.time_s += each_s * double(k), all.rows.push_back(row);
+    if (!timed) all.rows.back().time_s.reset();
+    const Check doubts = [](Recording& r, const std::string& file, std::vector<Diagnostic>& messages) {
+      doubt_run_numbers(r, file, messages);
+    };
+    return said_by(doubts, all);
+  };
+  const auto told = said({3, 1, 7}, 1000);
+  REQUIRE(told.size() == 1);
+  CHECK(told[0].code == Code::N0708);
+  CHECK(holds(told[0].message, "by the clock its runs were made in the order 3, 1, 7; what is new in a run"));
+  CHECK(said({1, 3, 7}, 1000).empty());
+  CHECK(said({2, 1}, 50).empty());  // at the same time, as of two placements
+  CHECK(said({2, 1}, 1000, false).empty());
+}
+
 TEST_CASE("a clock that stands still is not used, and one that falls back once is doubted") {
   Recording still = damaged([](RecordingRow& row) { row.time_s = 7; });
   const auto told = said_by(leave_out_clock_at_rest, still);
