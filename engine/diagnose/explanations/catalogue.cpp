@@ -115,12 +115,11 @@ class Evaluation {
   Vector column(const std::vector<TouchScene>& scenes, const std::vector<double>& theta, RunChange change,
                 const std::vector<double>& draws, int visit) const {
     Vector r = Vector::Zero(static_cast<Eigen::Index>(scenes.size()));
-    const std::vector<double> none(draws.size(), 0.0);
     for (std::size_t i = 0; i < scenes.size(); ++i) {
       if (!change.acts_in(scenes[i].run)) continue;
-      const std::vector<double>& z = visit >= 0 && scenes[i].visit != visit ? none : draws;
+      if (visit >= 0 && scenes[i].visit != visit) continue;  // no draw, no displacement
       const auto along_normal = [&](const TouchScene& s) {
-        return kUmPerMm * dot(s.normal, effect_.displace(s, theta.data(), z.data()));
+        return kUmPerMm * dot(s.normal, effect_.displace(s, theta.data(), draws.data()));
       };
       if (change.in_each_file) {
         TouchScene since_its_start = scenes[i];

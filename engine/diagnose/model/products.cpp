@@ -44,9 +44,38 @@ std::vector<double> by_tile(const Matrix& a, std::ptrdiff_t rows) {
   return out;
 }
 
+/// Of so few columns that to put a in the order of tiles would take longer than the product.
+bool is_narrow(const Matrix& b) { return b.cols() <= kColumns; }
+
+Matrix narrow_product(const Matrix& a, const Matrix& b) {
+  Matrix out = Matrix::Zero(a.rows(), b.cols());
+  for (Eigen::Index k = 0; k < a.cols(); ++k)
+    for (Eigen::Index c = 0; c < b.cols(); ++c) out.col(c) += b(k, c) * a.col(k);
+  return out;
+}
+
+/// Sums of some rows side by side, as each waits for the one before it.
+Matrix narrow_transposed_product(const Matrix& a, const Matrix& b) {
+  constexpr Eigen::Index kRows = 8;
+  Matrix out(a.cols(), b.cols());
+  for (Eigen::Index first = 0; first < a.cols(); first += kRows) {
+    const double* of[kRows];
+    for (Eigen::Index i = 0; i < kRows; ++i) of[i] = a.data() + std::min(first + i, a.cols() - 1) * a.rows();
+    for (Eigen::Index c = 0; c < b.cols(); ++c) {
+      const double* const with = b.data() + c * b.rows();
+      double sums[kRows] = {};
+      for (Eigen::Index k = 0; k < a.rows(); ++k)
+        for (Eigen::Index i = 0; i < kRows; ++i) sums[i] += of[i][k] * with[k];
+      for (Eigen::Index i = 0; i < std::min(kRows, a.cols() - first); ++i) out(first + i, c) = sums[i];
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
 Matrix product(const Matrix& a, const Matrix& b, int width) {
+  if (is_narrow(b)) return narrow_product(a, b);
   const std::ptrdiff_t n = a.rows(), all = a.cols(), columns = b.cols(), rows = kVectors * width,
                        tiles = (n + rows - 1) / rows;
   const std::vector<double> terms = by_tile(a, rows);
@@ -71,6 +100,10 @@ Matrix product(const Matrix& a, const Matrix& b, int width) {
   return out;
 }
 
-Matrix transposed_product(const Matrix& a, const Matrix& b) { return product(a.transpose(), b); }
+Matrix transposed_product(const Matrix& a, const Matrix& b) {
+  if (is_narrow(b)) return narrow_transposed_product(a, b);
+  if (is_narrow(a)) return narrow_transposed_product(b, a).transpose();
+  return product(a.transpose(), b);
+}
 
 }  // namespace abbe::diagnose

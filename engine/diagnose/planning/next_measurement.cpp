@@ -72,6 +72,27 @@ std::vector<Matrix> signatures_beside(const Case& c, const Question& question, c
   return out;
 }
 
+/// The columns of each variant, on these rows of it, as a recording sees them: all at once takes far less time.
+template <class Rows>
+std::vector<Seen> seen_each(const std::vector<Variant>& variants, const Rows& rows, const Precision& by) {
+  Eigen::Index columns = 0, first = 0;
+  for (const Variant& b : variants) columns += b.signature.cols();
+  std::vector<Seen> out;
+  if (variants.empty()) return out;
+  Matrix all(variants.front().signature(rows, Eigen::all).rows(), columns);
+  for (const Variant& b : variants) {
+    all.middleCols(first, b.signature.cols()) = b.signature(rows, Eigen::all);
+    first += b.signature.cols();
+  }
+  const Seen seen = by.seen(all);
+  first = 0;
+  for (const Variant& b : variants) {
+    out.push_back({seen.rows.middleCols(first, b.signature.cols()), seen.taken.middleCols(first, b.signature.cols())});
+    first += b.signature.cols();
+  }
+  return out;
+}
+
 std::vector<Contender> contenders_of(const Case& c, const Hyperparameters& fitted, const Question& question,
                                      const Longer& longer, const Precision& first) {
   std::vector<char> masked(longer.touches.touches.size(), 0);
@@ -89,11 +110,7 @@ std::vector<Contender> contenders_of(const Case& c, const Hyperparameters& fitte
   std::vector<Contender> out;
   for (const int rival : question.rivals) {
     const Explanations own = named_explanations(longer.touches, rows, {c.explanations.list[rival].name});
-    Contender contender;
-    for (const Variant& b : own.variants) {
-      contender.first.push_back(first.seen(b.signature(of_first, Eigen::all)));
-      contender.both.push_back(both.seen(b.signature));
-    }
+    Contender contender{seen_each(own.variants, of_first, first), seen_each(own.variants, Eigen::all, both), {}, {}};
     suppose(first.y(), contender);
     if (contender.shift_both.rows.size() > 0) out.push_back(std::move(contender));
   }

@@ -9,12 +9,15 @@
 namespace abbe::diagnose {
 
 TEST_CASE("each element of a product is the sum of its terms in their order") {
-  // Sizes around those of tiles, of columns that are made together, and of terms that are added at once.
+  // Sizes around those of tiles, of columns that are made together, of terms that are added at once, and of few columns.
   for (const auto& [rows, terms, columns] : {std::array{1, 1, 1},
                                              {5, 3, 2},
                                              {7, 4, 6},
                                              {16, 9, 130},
                                              {150, 31, 97},
+                                             {6, 40, 90},
+                                             {90, 40, 6},
+                                             {7, 40, 7},
                                              {2, 0, 3},
                                              {0, 4, 2},
                                              {4, 3, 0},
