@@ -25,6 +25,7 @@ import generate
 import plots
 import run
 import score
+import summary
 from cases import Spec
 
 ABBE = pathlib.Path(sys.argv.pop()).resolve()
@@ -116,6 +117,18 @@ class SmallRound(unittest.TestCase):
         self.assertIsNotNone(followed["rows"][0]["asked"], "a wish that the generator does not understand")
         self.assertIn("resolved", follow.text(followed))
         self.assertEqual(follow.followed(self.root, ABBE), followed)
+
+    def test_the_head_of_the_page_counts_the_cases(self):
+        rows = self.result["rows"]
+        nulls = [r for r in rows if r["kind"] == "null"]
+        strong = [r for r in rows if r["kind"] == "single" and r["snr"] >= 6 and r["detected"]]
+        strangers = [r for r in rows if r["kind"] == "unknown" and r["snr"] >= 10]
+        for count in (
+            f"Of {len(nulls)} simulated machines without a fault {sum(r['false_alarm'] for r in nulls)} were accused",
+            f"of the {len(strong)} of this size and larger that were found {sum(r['right'] for r in strong)} were named rightly",
+            f"of {len(strangers)} large ones {sum(r['detected'] for r in strangers)} were seen",
+        ):
+            self.assertIn(count, summary.headline(self.result).replace("\n", " "))
 
     def test_the_page_takes_every_block(self):
         followed = {"rows": []}
