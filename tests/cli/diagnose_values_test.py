@@ -96,6 +96,22 @@ class Values(harness.Case):
         self.assertRegex(said["otherwise"], r"LEN in run 2 is ([89]|1[012])(\.\d)? um beside its other runs, which agree: check what was written there")
         self.assertEqual(said["location"][0]["where"]["run"], "2")
 
+    def test_what_differs_between_runs_is_told(self):
+        """A part that is 2 K warmer in the second run, another ball in it; a part that warms up, what was off at first fades."""
+        base = self.recorded(runs=3, lengths=BOTH)
+        for more_um, where, sentence in (
+                (lambda run, length: (run == 2) * 23e-3 * length, {"run": "2"}, r"the values of run 2 stray .* in proportion to their lengths, by \+2[234] um per m\."),
+                (lambda run, length: -3 * (run == 2), {"run": "2"}, r"the values of run 2 stray .* all by -(2\.[89]|3\.\d) um\."),
+                (lambda run, length: 12e-3 * (run - 1) * length, {}, r"change from run to run, in proportion to their lengths, by \+2[345] um per m from the first to the last\."),
+                (lambda run, length: 1.5 * (3 - run), {}, r"change from run to run, all by -(2\.[89]|3\.\d) um from the first to the last\.")):
+            said = self.diagnosis(self.changed(base, lambda row: row | {
+                "value": repr(float(row["value"]) + more_um(int(row["run"]), float(row["reference"])) / 1000)}, "between.csv"))
+            self.assertEqual((said["verdict"], said["unexplained"]["factor"], said["location"][0]["factor"]), ("unexplained", "run", "run"))
+            self.assertEqual(said["location"][0]["where"], where)
+            self.assertRegex(said["unexplained"]["sentence"], sentence)
+            self.assertNotIn("nearest", said["unexplained"]["sentence"])
+            self.assertGreater(said["improvement"]["log_score_gain"], 3 * said["improvement"]["se"])
+
     def test_all_characteristics_that_stray_are_told(self):
         """Both blocks stood on dirt where they stood upright, in three runs: neither strays by itself."""
         def dirty(row):

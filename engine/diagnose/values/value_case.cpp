@@ -6,7 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "engine/diagnose/values/value_signature.hpp"
+#include "engine/diagnose/values/value_patterns.hpp"
 
 namespace abbe::diagnose {
 
@@ -81,7 +81,7 @@ std::optional<ValueCase> value_case_of(const ValueRecording& recording, const st
   }
   if (!enough(c.ensemble.simulated)) return std::nullopt;
   c.judges = judges_of(c.ensemble.simulated, c.recorded, options.seed);
-  add_value_patterns(labels_of(c), c.judges.covariance, c.ensemble.explanations);
+  add_value_patterns(c);
   c.search.emplace(c.judges.mean, c.judges.covariance, c.ensemble.explanations);
   return c;
 }

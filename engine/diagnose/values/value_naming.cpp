@@ -12,7 +12,7 @@
 #include "engine/diagnose/findings/members.hpp"
 #include "engine/diagnose/findings/search.hpp"
 #include "engine/diagnose/values/value_improvement.hpp"
-#include "engine/diagnose/values/value_signature.hpp"
+#include "engine/diagnose/values/value_patterns.hpp"
 #include "engine/diagnose/values/value_telling.hpp"
 
 namespace abbe::diagnose {
@@ -152,7 +152,8 @@ void tell_explanation(const ValueCase& c, const Closer& closer, Diagnosis& out) 
     tell_strays_alike(c, *alike, out);
   else
     tell_pattern(c, closer, pattern, out);
-  if (!named && name.explanation >= 0 && out.unexplained->shape != kOneCharacteristic)
+  if (!named && name.explanation >= 0 && out.unexplained->shape != kOneCharacteristic &&
+      !is_over_runs(closer.explanation(pattern)))
     out.unexplained->sentence +=
         fmt::format(" Of the catalogue, {} comes nearest.", closer.explanation(name).effect->title);
 }

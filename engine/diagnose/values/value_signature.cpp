@@ -3,8 +3,6 @@
 #include <map>
 
 #include "engine/base/on_threads.hpp"
-#include "engine/diagnose/explanations/patterns/families.hpp"
-#include "engine/diagnose/explanations/patterns/patterns.hpp"
 #include "engine/diagnose/findings/carried.hpp"
 #include "engine/effects/effect.hpp"
 #include "engine/run/run.hpp"
@@ -155,21 +153,6 @@ void add(const Effect& effect, std::vector<Draft>& drafts, const std::vector<Vec
   if (!e.variants.empty()) out.list.push_back(std::move(e));
 }
 
-void add_pattern(Explanations& out, Factor factor, const char* shape, Matrix signature) {
-  Explanation e;
-  e.name = std::string("OTHER ") + shape;
-  e.factor = factor;
-  e.shape = shape;
-  Variant b;
-  b.explanation = static_cast<int>(out.list.size());
-  b.columns.assign(static_cast<std::size_t>(signature.cols()), {});
-  b.signature = std::move(signature);
-  b.joined = true;
-  e.variants = {static_cast<int>(out.variants.size())};
-  out.variants.push_back(std::move(b));
-  out.list.push_back(std::move(e));
-}
-
 }  // namespace
 
 Explanations value_explanations(const std::vector<RecordedValue>& values, const std::vector<ValueProgram>& programs,
@@ -196,26 +179,6 @@ Explanations value_explanations(const std::vector<RecordedValue>& values, const 
   std::size_t at = 0;
   for (std::size_t k = 0; k < judged.size(); ++k) add(*judged[k], drafts[k], grown, at, unknown, out);
   return out;
-}
-
-void add_value_patterns(const std::vector<std::string>& labels, const Matrix& covariance, Explanations& out) {
-  const std::size_t catalogue = out.list.size();
-  const Vector deviation = covariance.diagonal().cwiseSqrt();
-  std::map<std::string, Matrix> strays;  // all repeats by the same: they tell each other to a fraction of that
-  for (std::size_t k = 0; k < labels.size(); ++k) {
-    Matrix& column = strays.try_emplace(labels[k], Matrix::Zero(deviation.size(), 1)).first->second;
-    const double size = column.isZero() ? deviation(static_cast<Eigen::Index>(k)) : column.maxCoeff();
-    column(static_cast<Eigen::Index>(k), 0) = size;
-  }
-  std::vector<patterns::Family::Told> each;
-  for (const auto& [label, column] : strays) each.push_back({label, column});
-  constexpr std::size_t kOthers = 2;  // for one of fewer nobody knows which it is
-  if (each.size() > kOthers) patterns::Family(Factor::feature, out).add(kOneCharacteristic, each);
-  add_pattern(out, Factor::feature, "single values", Matrix(deviation.asDiagonal()));
-  add_pattern(out, Factor::position, "larger errors", Cholesky(covariance).lower());
-  for (std::size_t k = 0; k < out.list.size(); ++k)
-    out.list[k].prior =
-        k < catalogue ? kPriorCatalogue / double(catalogue) : kPriorOther / double(out.list.size() - catalogue);
 }
 
 }  // namespace abbe::diagnose

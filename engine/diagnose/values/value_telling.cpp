@@ -12,7 +12,7 @@
 #include "engine/diagnose/findings/carried.hpp"
 #include "engine/diagnose/findings/locate.hpp"
 #include "engine/diagnose/findings/members.hpp"
-#include "engine/diagnose/values/value_signature.hpp"
+#include "engine/diagnose/values/value_patterns.hpp"
 #include "engine/diagnose/words.hpp"
 #include "engine/math/normal.hpp"
 #include "engine/run/recorded/logged.hpp"
@@ -177,10 +177,22 @@ void tell_pattern(const ValueCase& c, const Closer& closer, const Finding& f, Di
   const Explanation& e = closer.explanation(f);
   const Vector sizes = sizes_of(closer.search, f.variant, c.deviation).mean, all = closer.variant(f).signature * sizes,
                pattern = all(of_figures(c.ensemble.values));
-  // located in the values themselves: no more is known of them
-  out.unexplained = pattern_of_size(Factor::feature, e.shape, std::sqrt(pattern.squaredNorm() / double(pattern.size())),
+  out.unexplained = pattern_of_size(is_over_runs(e) ? Factor::run : Factor::feature, e.shape,
+                                    std::sqrt(pattern.squaredNorm() / double(pattern.size())),
                                     closer.search.information(f.variant, c.deviation).u.dot(sizes));
   out.verdict = Verdict::unexplained;
+  if (is_over_runs(e)) {
+    const InWords words = over_runs(c, e, closer.variant(f), all);
+    out.unexplained->sentence = fmt::format("No effect of the catalogue explains it: {}.", words.what);
+    out.otherwise = words.otherwise;
+    Location where{std::string(name(e.factor)), {}};
+    if (words.run) where.where.emplace_back(where.factor, std::to_string(*words.run));
+    where.share =
+        1 - closer.search.white(c.deviation - all).squaredNorm() / closer.search.white(c.deviation).squaredNorm();
+    where.p = out.p_value;
+    out.location.push_back(std::move(where));
+    return;
+  }
   if (e.shape == kOneCharacteristic) {
     const std::string& which = closer.variant(f).told;
     std::vector<std::string> stray = others_that_stray(c, which, out.values);
