@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 
 #include "engine/diagnose/explanations/patterns/families.hpp"
 #include "engine/diagnose/words.hpp"
@@ -18,16 +17,18 @@ constexpr const char *kOneRun = "one run", *kOneRunByLength = "one run, in propo
                      *kFromRunToRun = "from run to run",
                      *kFromRunToRunByLength = "from run to run, in proportion to length";
 
-Matrix of_one_characteristic(const ValueCase& c, const Vector& deviation, const std::string& label) {
+/// A column by label, as far as values deviate: all repeats by the same, since they tell each other to a fraction of that.
+std::vector<patterns::Family::Told> by_characteristic(const ValueCase& c, const Vector& deviation) {
   const std::vector<std::string> labels = labels_of(c);
-  Matrix column = Matrix::Zero(deviation.size(), 1);
+  std::map<std::string, Matrix> columns;
   for (std::size_t k = 0; k < labels.size(); ++k) {
-    if (labels[k] != label) continue;
-    const auto row =
-        static_cast<Eigen::Index>(k);  // all repeats by the same: they tell each other to a fraction of that
+    Matrix& column = columns.try_emplace(labels[k], Matrix::Zero(deviation.size(), 1)).first->second;
+    const auto row = static_cast<Eigen::Index>(k);
     column(row, 0) = column.isZero() ? deviation(row) : column.maxCoeff();
   }
-  return column;
+  std::vector<patterns::Family::Told> out;
+  for (const auto& [label, column] : columns) out.push_back({label, column});
+  return out;
 }
 
 int run_of(const ValueCase& c, Eigen::Index value) { return c.recording->rows[static_cast<std::size_t>(value)].run; }
@@ -97,10 +98,7 @@ void add_value_patterns(ValueCase& c) {
   Explanations& out = c.ensemble.explanations;
   const std::size_t catalogue = out.list.size();
   const Vector deviation = c.judges.covariance.diagonal().cwiseSqrt();
-  const std::vector<std::string> labels = labels_of(c);
-  std::vector<patterns::Family::Told> each;
-  for (const std::string& label : std::set<std::string>(labels.begin(), labels.end()))
-    each.push_back({label, of_one_characteristic(c, deviation, label)});
+  const std::vector<patterns::Family::Told> each = by_characteristic(c, deviation);
   constexpr std::size_t kOthers = 2;  // for one of fewer nobody knows which it is
   patterns::Family in_values(Factor::feature, out);
   if (each.size() > kOthers) in_values.add(kOneCharacteristic, each);
