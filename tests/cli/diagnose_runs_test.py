@@ -35,6 +35,21 @@ class DiagnoseRuns(harness.Case):
         self.assertEqual((said["verdict"], said["touches"]), ("no_mismatch", 130))
         self.assertGreater(said["p_value"], 0.01)
 
+    def test_what_changed_predicts_touches_left_out_however_large_it_is(self):
+        """By the noise and the errors of the whole recording: those that a part of it asks for may be others altogether. And corrected by one
+        account of the change: as there since the second run, or gone since the first."""
+        part = harness.ROOT / "examples/programs/prismatic_part.dmi"
+        self.abbe("record", part, "-o", "before.csv")
+        gains = []
+        for urad in (35, 40):
+            self.abbe("record", part, "--run", 2, "--with", f"machine.squareness:squareness_urad={urad},which=cwy", "-o", "after.csv")
+            said = json.loads(self.abbe("diagnose", "before.csv", "after.csv", "--format", "json").stdout)
+            gains.append(said["improvement"]["log_score_gain"])
+            self.assertEqual([e["members"] for e in said["effects"]], [["machine.squareness"]])
+            self.assertGreater(said["effects"][0]["probability"], 0.99)
+            self.assertLess(said["improvement"]["chi2_per_dof"]["after"], 1.5)
+        self.assertTrue(30 < gains[0] < gains[1], gains)
+
     def test_between_two_files_styli_may_have_been_qualified_anew(self):
         """A service qualifies them all: offsets of 0.3 um by orientation. At 1 % two alarms in four come by chance once in 1700 times."""
         alarms = 0

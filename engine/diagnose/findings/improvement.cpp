@@ -129,10 +129,11 @@ HeldOut held_out(const Case& c, const Scheme& scheme, int explanation, const Lin
   const EvidenceSearch sizes(model, h, all);
   // one prior for all groups
   for (std::size_t b = 0; b < all.variants.size(); ++b) all.variants[b].sizes = sizes.sizes(static_cast<int>(b));
-  const Evidence complete = EvidenceSearch(model, h, all).evidence();
+  const EvidenceSearch whole(model, h, all);
+  const Evidence& complete = whole.evidence();
   HeldOut out;
   for (const int g : std::set<int>(scheme.group.begin(), scheme.group.end())) {
-    const EvidenceSearch search(without_rows(model, of_group(scheme, g)), h, rows_of(all, outside(scheme, g)));
+    const EvidenceSearch search = whole.without(of_group(scheme, g), rows_of(all, outside(scheme, g)));
     out.gain.push_back(complete.log_bayes[0] - search.evidence().log_bayes[0]);
     out.null.push_back(complete.log_null - search.evidence().log_null);
     out.columns.push_back(likeliest(search, all));
@@ -212,27 +213,32 @@ GroupGains gains_of(const Case& c, const Scheme& scheme, const std::vector<Told>
 
 /// Every group by what the others show of what was told.
 struct Corrected {
-  LinearModel without;  ///< the recording less what was told
-  Vector residual;      ///< beyond the prediction of machine and what was told
+  Vector residual;  ///< beyond the prediction of machine and what was told
+  /// Beside each touch's prediction from all others, all less what the others than its group show of what was told, in
+  /// standard deviations. A correction is that of one group throughout: what changed after a run may be taken for its
+  /// opposite before it, and half of each is neither.
+  Vector standardised;
   /// What was told, where it acts most. Each group asks the others alone: chosen among the predictions of all groups, the
   /// touches would be those of the group of which the others expect too much.
   Vector most;
 };
 Corrected corrected(const LinearModel& machine, const Hyperparameters& hyper, const Scheme& scheme,
                     const std::vector<Matrix>& columns) {
-  Corrected out{machine, Vector::Zero(machine.y.size()), Vector::Zero(machine.y.size())};
+  Corrected out;
+  out.residual = out.standardised = out.most = Vector::Zero(machine.y.size());
   std::size_t at = 0;
   for (const int g : std::set<int>(scheme.group.begin(), scheme.group.end())) {
     const Vector predicted = expected(machine, hyper, scheme, g, columns[at++]);
     LinearModel improved = machine;
     improved.y -= predicted;
     out.residual += beyond_prediction(improved, hyper, of_group(scheme, g));
+    const Vector beside_others = leave_one_out(improved, hyper);
     const Vector shows = beside_free(machine, predicted);
     const double limit = largest_fifth(shows);
     for (std::size_t k = 0; k < scheme.group.size(); ++k) {
       if (scheme.group[k] != g) continue;
       const auto row = static_cast<Eigen::Index>(k);
-      out.without.y(row) -= predicted(row);
+      out.standardised(row) = beside_others(row);
       if (std::abs(shows(row)) >= limit) out.most(row) = shows(row);
     }
   }
@@ -282,8 +288,8 @@ void show_improvement(const Case& c, const SearchResult& result, Diagnosis& out)
   const std::vector<double> baseline = held_out(c, scheme, told.front().explanation, c.model, c.hyper).null;
   const GroupGains gains = gains_of(c, scheme, told, result.hyper, baseline);
   const Corrected after = corrected(machine, hyper, scheme, gains.columns);
-  const auto chi2_per_dof = [&](const LinearModel& m) {
-    return leave_one_out(m, hyper).squaredNorm() / double(m.y.size());
+  const auto chi2_per_dof = [](const Vector& standardised) {
+    return standardised.squaredNorm() / double(standardised.size());
   };
   Improvement i;
   i.scheme = scheme.name;
@@ -293,8 +299,8 @@ void show_improvement(const Case& c, const SearchResult& result, Diagnosis& out)
   i.rms_after_um = rms(after.residual);
   i.bias_before_um = bias(before, after.most);
   i.bias_after_um = bias(after.residual, after.most);
-  i.chi2_per_dof_before = chi2_per_dof(machine);
-  i.chi2_per_dof_after = chi2_per_dof(after.without);
+  i.chi2_per_dof_before = chi2_per_dof(leave_one_out(machine, hyper));
+  i.chi2_per_dof_after = chi2_per_dof(after.standardised);
   out.improvement = i;
   tell_residuals(c, before, after.residual, out);
   out.runner_up = runner_up(c, result, scheme, told.front().explanation, baseline);

@@ -64,12 +64,21 @@ void average_variants(const std::vector<Explanation>& explanations, const std::v
 }
 
 EvidenceSearch::EvidenceSearch(const LinearModel& model, const Hyperparameters& h, const Explanations& explanations)
-    : model_(model), hyper_(h), functions_(model.uneven.size()) {
-  const double correlated = h.correlation > 0 ? kPriorCorrelated : 1;
+    : EvidenceSearch(model, h, h.correlation > 0 ? std::optional(estimate_uncorrelated(model)) : std::nullopt,
+                     explanations) {}
+
+EvidenceSearch::EvidenceSearch(const LinearModel& model, const Hyperparameters& h,
+                               std::optional<Hyperparameters> uncorrelated, const Explanations& explanations)
+    : model_(model), hyper_(h), uncorrelated_(std::move(uncorrelated)), functions_(model.uneven.size()) {
+  const double correlated = uncorrelated_ ? kPriorCorrelated : 1;
   rough_ = add_machines(model, h, std::log(correlated));
-  if (correlated < 1) add_machines(model, estimate_uncorrelated(model), std::log(1 - correlated));
+  if (uncorrelated_) add_machines(model, *uncorrelated_, std::log(1 - correlated));
   for (Ensemble& e : ensembles_) e.prepare(model.uneven);
   extend(explanations, 0);
+}
+
+EvidenceSearch EvidenceSearch::without(const std::vector<char>& dropped, const Explanations& of_the_rest) const {
+  return {without_rows(model_, dropped), hyper_, uncorrelated_, of_the_rest};
 }
 
 double EvidenceSearch::add_machines(const LinearModel& model, const Hyperparameters& h, double log_prior) {

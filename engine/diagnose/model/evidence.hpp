@@ -60,6 +60,9 @@ class EvidenceSearch {
   static constexpr int kTogether = 20;
 
   EvidenceSearch(const LinearModel&, const Hyperparameters&, const Explanations&);
+  /// The search of the touches that are left without some, by the noise and errors of all: fewer touches may tell of others,
+  /// and what is then said of those left out would be no prediction.
+  EvidenceSearch without(const std::vector<char>& dropped, const Explanations& of_the_rest) const;
 
   /// Judges a list whose variants are new after the first `same`; a plan has nothing to judge.
   void extend(const Explanations&, std::size_t same);
@@ -119,6 +122,9 @@ class EvidenceSearch {
   const std::vector<Size>& sizes(int variant) const { return likely().sizes(variant); }
 
  private:
+  /// `uncorrelated`: the noise if neighbours scatter independently, where they seem not to.
+  EvidenceSearch(const LinearModel&, const Hyperparameters&, std::optional<Hyperparameters> uncorrelated,
+                 const Explanations&);
   /// Ensembles of the specification and, if that is not out of the question, of rougher errors, with this
   /// noise; the belief in the latter.
   double add_machines(const LinearModel&, const Hyperparameters&, double log_prior);
@@ -139,6 +145,7 @@ class EvidenceSearch {
 
   LinearModel model_;
   Hyperparameters hyper_;
+  std::optional<Hyperparameters> uncorrelated_;
   std::vector<Explanation> explanations_;
   std::vector<Ensemble> ensembles_;
   std::vector<double> log_weight_;  ///< by variant
