@@ -45,6 +45,39 @@ struct WrittenColumn {
   }
 };
 
+/// A step that is no round number of nanometres, as a third of 10 um, of which all lengths are multiples as far as they are
+/// written; 0: there is none of at least 0.1 um. Lengths and their differences, from the smallest on: each tells the step
+/// better than those before it, since it is more of them.
+double interpolated_step_mm(const std::vector<double>& lengths_mm) {
+  constexpr double kLeast_mm = 1e-4, kToNanometres_mm = 0.55e-6, kFiner_mm = 0.55e-7, kWhole = 1e-3;
+  constexpr int kMostParts = 50;
+  const bool to_nanometres = std::all_of(lengths_mm.begin(), lengths_mm.end(), [](double length) {
+    return std::abs(1e6 * length - std::round(1e6 * length)) < kWhole;
+  });
+  const double written = 2 * (to_nanometres ? kToNanometres_mm : kFiner_mm);  // of a difference
+  std::vector<double> multiples;
+  for (const double length : lengths_mm) multiples.push_back(std::abs(length));
+  std::sort(multiples.begin(), multiples.end());
+  for (std::size_t i = multiples.size(); i-- > 1;) multiples.push_back(multiples[i] - multiples[i - 1]);
+  std::sort(multiples.begin(), multiples.end());
+  multiples.erase(multiples.begin(), std::lower_bound(multiples.begin(), multiples.end(), kLeast_mm));
+  double step = multiples.empty() ? 0 : multiples.front(), error = written;
+  for (const double length : multiples) {
+    int parts = 1;  // of the step so far, each of which may be it
+    const auto off = [&] {
+      const double part = step / parts;
+      return std::abs(length - part * std::round(length / part)) - written - std::round(length / part) * error / parts;
+    };
+    while (off() > 0 && step >= kLeast_mm * (parts + 1) && parts < kMostParts) ++parts;
+    step /= parts, error /= parts;
+    const double times = std::round(length / step);
+    parts = 1;
+    if (off() > 0 || 4 * times * error > step) return 0;
+    if (written / times < error) step = length / times, error = written / times;
+  }
+  return step;
+}
+
 }  // namespace
 
 std::optional<Surfaces> find_surfaces(std::string_view word) {
@@ -67,10 +100,11 @@ std::optional<std::string> said(const Metadata& metadata, std::string_view key) 
 }
 
 double common_step_mm(const std::vector<double>& lengths_mm) {
-  constexpr double kLastDigitsPerMm = 1e6;
+  constexpr double kLastDigitsPerMm = 1e6, kLeastOfDigits_mm = 1e-5;
   long long step = 0;
   for (const double length : lengths_mm) step = std::gcd(step, std::llround(kLastDigitsPerMm * length));
-  return double(step) / kLastDigitsPerMm;
+  if (step == 0 || double(step) >= kLeastOfDigits_mm * kLastDigitsPerMm) return double(step) / kLastDigitsPerMm;
+  return std::max(interpolated_step_mm(lengths_mm), double(step) / kLastDigitsPerMm);
 }
 
 double common_step_mm(const Recording& recording) {

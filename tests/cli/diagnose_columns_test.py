@@ -29,11 +29,12 @@ class Columns(harness.Case):
             self.assertEqual(said["baseline"]["outliers"], [])
 
     def test_what_record_rounds_is_found(self):
-        for seed, step_um in ((7, 3), (8, 5), (9, 10)):
+        """A round number of nanometres or not, as that of a counter which divides a period of 40 um by 12."""
+        for seed, step_um in ((7, 3), (8, 5), (9, 3.3333333)):
             said = self.diagnosis(self.record("--seed", seed, "--with", f"noise.resolution:resolution_um={step_um}", whole=True))
             self.assertEqual([e["members"] for e in said["effects"]], [["noise.resolution"]], (seed, step_um))
-            self.assertAlmostEqual(said["effects"][0]["parameters"]["resolution_um"]["value"], step_um)
-            self.assertIn(f"Record the digits that the machine has: x, y and z come in steps of {step_um} um.", said["otherwise"] or "")
+            self.assertAlmostEqual(said["effects"][0]["parameters"]["resolution_um"]["value"], step_um, 6)
+            self.assertIn(f"Record the digits that the machine has: x, y and z come in steps of {step_um:g} um.", said["otherwise"] or "")
 
     def test_the_only_stylus_of_a_machine_without_a_head_need_not_be_logged(self):
         """It is in no orientation, so no column says what its touches lack, and no error of a head explains them."""

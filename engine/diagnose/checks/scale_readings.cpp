@@ -125,6 +125,7 @@ void check_order(const std::vector<Travel>& travels, const std::string& file) {
 /// whose normals do not tell that, it is the step that all axes have in common.
 double step_mm(const Recording& r, int axis) {
   constexpr double kAlong = 0.1;
+  constexpr std::size_t kEnough = 6;  // what fewer have in common is where they happen to lie
   std::vector<double> from_first;
   std::optional<Vec3> first;
   for (const RecordingRow& row : r.rows) {
@@ -134,7 +135,7 @@ double step_mm(const Recording& r, int axis) {
     for (int k = 0; k < 3; ++k)
       if (k == axis || r.in_part_frame) from_first.push_back((*row.reading_mm)[k] - (*first)[k]);
   }
-  return common_step_mm(from_first);
+  return from_first.size() < kEnough ? 0 : common_step_mm(from_first);
 }
 
 /// Why the readings of an axis do not tell where touches were; nothing where they do, or where the tip does not travel.
