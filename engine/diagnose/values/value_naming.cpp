@@ -60,6 +60,8 @@ void put_told_first(const Explanations& all, Finding& name) {
   name.put_first(name.set.front());
 }
 
+constexpr double kStruck = -1e6;  // of a logarithm
+
 struct NameAndPattern {
   Finding name, pattern;
 };
@@ -68,7 +70,6 @@ struct NameAndPattern {
 /// likeliest pattern, once those names are struck that are impossible.
 NameAndPattern possible_name(const ValueCase& c, const Closer& closer, const Evidence& evidence) {
   constexpr int kTries = 5;
-  constexpr double kStruck = -1e6;
   const Explanations& all = closer.search.explanations();
   Evidence left = evidence;
   std::optional<NameAndPattern> likeliest;
@@ -83,77 +84,61 @@ NameAndPattern possible_name(const ValueCase& c, const Closer& closer, const Evi
   return *likeliest;
 }
 
-/// The characteristic that strays by itself, where chance leaves as much as the others do.
-std::optional<Finding> one_characteristic(const ValueCase& c, const Closer& closer, const Evidence& evidence) {
-  const Explanations& all = closer.search.explanations();
-  const auto found = std::find_if(all.list.begin(), all.list.end(),
-                                  [](const Explanation& e) { return e.shape == kOneCharacteristic; });
+/// The pattern of this shape, if there is one.
+std::optional<Finding> pattern_of(const Explanations& all, const Evidence& evidence, const std::string& shape) {
+  const auto found =
+      std::find_if(all.list.begin(), all.list.end(), [&](const Explanation& e) { return e.shape == shape; });
   if (found == all.list.end()) return std::nullopt;
-  const Finding f = finding_of_one(all, evidence, static_cast<int>(found - all.list.begin()));
-  return left_by_chance(c, closer, f) >= kInadequate ? std::optional(f) : std::nullopt;
+  return finding_of_one(all, evidence, static_cast<int>(found - all.list.begin()));
 }
 
-/// The characteristic, of one tolerance and reference, and one artefact where rows say which, that strays alike in all
-/// places where it was measured: where chance leaves as much once its offset is free. Only among others.
-std::optional<StraysAlike> one_in_all_places(const ValueCase& c) {
-  constexpr std::size_t kOtherReferences = 2;  // of fewer nobody knows which it is
-  constexpr double kSameReference = 1e-3;      // mm or degrees: what rounding leaves of a program's nominals
-  using Which = std::tuple<std::string, long long, std::string>;
-  std::map<Which, std::set<std::tuple<int, int, int>>> places;
-  std::map<Which, Vector> columns;
-  const auto n = static_cast<Eigen::Index>(c.ensemble.values.size());
-  for (Eigen::Index k = 0; k < n; ++k) {
-    const RecordedValue& v = c.ensemble.values[static_cast<std::size_t>(k)];
-    const ValueRow& row = c.recording->rows[static_cast<std::size_t>(k)];
-    const Which which{abbe::labels_of(row.characteristic).back(), std::llround(v.reference / kSameReference),
-                      row.artefact};
-    places[which].insert({v.program, v.characteristic.value, v.occurrence});
-    columns.try_emplace(which, Vector::Zero(n)).first->second(k) = 1;
+void strike(const Explanations& all, const std::string& shape, Evidence& evidence) {
+  for (std::size_t k = 0; k < all.list.size(); ++k)
+    if (all.list[k].shape == shape) evidence.log_bayes[k] = kStruck;
+}
+
+/// The characteristic that strays by itself, where chance leaves as much as the others do.
+std::optional<Finding> one_characteristic(const ValueCase& c, const Closer& closer, const Evidence& evidence) {
+  const std::optional<Finding> f = pattern_of(closer.search.explanations(), evidence, kOneCharacteristic);
+  return f && left_by_chance(c, closer, *f) >= kInadequate ? f : std::nullopt;
+}
+
+/// The reference that strays alike in all places, where chance leaves as much once its offset is free; of two, where chance
+/// does not leave as much once that of the other is free, or nobody knows which it is.
+std::optional<Finding> one_reference(const ValueCase& c, const Closer& closer, const Evidence& evidence) {
+  const Explanations& all = closer.search.explanations();
+  const std::optional<Finding> f = pattern_of(all, evidence, kOneReference);
+  if (!f || left_by_chance(c, closer, *f) < kInadequate) return std::nullopt;
+  const auto moved = [&](int variant) { return all.variants[variant].signature.col(0).array() != 0; };
+  for (const int b : closer.explanation(*f).variants) {
+    Finding other = *f;
+    other.variant = b;
+    if ((moved(b) != moved(f->variant)).all() && left_by_chance(c, closer, other) >= kInadequate) return std::nullopt;
   }
-  if (columns.size() <= kOtherReferences) return std::nullopt;
-  const Cholesky root(c.judges.covariance);
-  const Vector white = root.whitened(Vector(c.deviation - c.judges.mean));
-  std::optional<StraysAlike> most;
-  for (const auto& [which, column] : columns) {
-    if (places[which].size() < 2) continue;
-    const Vector of = root.whitened(column);
-    const double size = of.dot(white) / of.squaredNorm(), energy = size * of.dot(white);
-    if (most && energy <= most->energy) continue;
-    Eigen::Index first = 0;
-    column.maxCoeff(&first);
-    const RecordedValue& v = c.ensemble.values[static_cast<std::size_t>(first)];
-    most = {std::get<0>(which), v.reference, v.angle, places[which].size(), column, size, energy};
-  }
-  if (!most) return std::nullopt;
-  const ValueSearch without(c.judges.mean, c.judges.covariance, c.search->explanations(), most->column);
-  return chance_of(c, without, c.judges.judged) >= kInadequate ? most : std::nullopt;
+  return f;
 }
 
 }  // namespace
 
 void tell_explanation(const ValueCase& c, const Closer& closer, Diagnosis& out) {
-  const Evidence evidence = closer.search.evidence(c.deviation);
+  Evidence evidence = closer.search.evidence(c.deviation);
+  const std::optional<Finding> reference = one_reference(c, closer, evidence);
+  if (!reference) strike(closer.search.explanations(), kOneReference, evidence);
   auto [name, pattern] = possible_name(c, closer, evidence);
   const double adequacy = adequacy_of(c, closer, name);
   const bool doubted = adequacy < kInadequate && leaves_less(left_by_chance(c, closer, pattern), adequacy);
-  const bool named = likelier(name, pattern, doubted ? kNamedInDoubt : kNamed);
-  std::optional<StraysAlike> alike;
-  if (!named) {
-    const std::optional<Finding> one = one_characteristic(c, closer, evidence);
-    if (one)
-      pattern = *one;
-    else
-      alike = one_in_all_places(c);
-  }
+  bool named = likelier(name, pattern, doubted ? kNamedInDoubt : kNamed);
+  if (const std::optional<Finding> one = named ? std::nullopt : one_characteristic(c, closer, evidence))
+    pattern = *one;
+  else if (reference && (!named || adequacy < kInadequate))
+    pattern = *reference, named = false;
   show_improvement(c, closer, named ? name : pattern, out);
   if (named)
     tell_name(c, closer, name, adequacy, out);
-  else if (alike)
-    tell_strays_alike(c, *alike, out);
   else
     tell_pattern(c, closer, pattern, out);
-  if (!named && name.explanation >= 0 && out.unexplained->shape != kOneCharacteristic &&
-      !is_over_runs(closer.explanation(pattern)))
+  const bool located = pattern.explanation >= 0 && is_located(closer.explanation(pattern));
+  if (!named && name.explanation >= 0 && !located)
     out.unexplained->sentence +=
         fmt::format(" Of the catalogue, {} comes nearest.", closer.explanation(name).effect->title);
 }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
+#include <tuple>
 
 #include "engine/diagnose/explanations/patterns/families.hpp"
 #include "engine/diagnose/words.hpp"
@@ -28,6 +30,35 @@ std::vector<patterns::Family::Told> by_characteristic(const ValueCase& c, const 
   }
   std::vector<patterns::Family::Told> out;
   for (const auto& [label, column] : columns) out.push_back({label, column});
+  return out;
+}
+
+/// What is measured in several places: of one tolerance label, one reference and one artefact. All by the same, among others.
+std::vector<patterns::Family::Told> by_reference(const ValueCase& c, const Vector& deviation) {
+  constexpr double kSame = 1e-3;  // mm or degrees: what rounding leaves of a program's nominals
+  struct Rows {
+    std::set<std::tuple<int, int, int>> places;
+    std::vector<Eigen::Index> list;
+  };
+  std::map<std::tuple<std::string, long long, std::string>, Rows> of;
+  for (std::size_t k = 0; k < c.ensemble.values.size(); ++k) {
+    const RecordedValue& v = c.ensemble.values[k];
+    const ValueRow& row = c.recording->rows[k];
+    Rows& rows = of[{abbe::labels_of(row.characteristic).back(), std::llround(v.reference / kSame), row.artefact}];
+    rows.places.insert({v.program, v.characteristic.value, v.occurrence});
+    rows.list.push_back(static_cast<Eigen::Index>(k));
+  }
+  std::vector<patterns::Family::Told> out;
+  if (of.size() < 2) return out;
+  for (const auto& [which, rows] : of) {
+    if (rows.places.size() < 2) continue;
+    Matrix column = Matrix::Zero(deviation.size(), 1);
+    column(rows.list, 0).setConstant(deviation(rows.list).maxCoeff());
+    const RecordedValue& first = c.ensemble.values[static_cast<std::size_t>(rows.list.front())];
+    out.push_back({fmt::format("{} ({:.9g} {} by reference) strays alike in all {} places where it was measured",
+                               std::get<0>(which), first.reference, first.angle ? "degrees" : "mm", rows.places.size()),
+                   column});
+  }
   return out;
 }
 
@@ -102,12 +133,18 @@ void add_value_patterns(ValueCase& c) {
   constexpr std::size_t kOthers = 2;  // for one of fewer nobody knows which it is
   patterns::Family in_values(Factor::feature, out);
   if (each.size() > kOthers) in_values.add(kOneCharacteristic, each);
+  if (const std::vector<patterns::Family::Told> references = by_reference(c, deviation); !references.empty())
+    in_values.add(kOneReference, references);
   in_values.add("single values", Matrix(deviation.asDiagonal()));
   patterns::Family(Factor::position, out).add("larger errors", Cholesky(c.judges.covariance).lower());
   add_over_runs(c, deviation, out);
   for (std::size_t k = 0; k < out.list.size(); ++k)
     out.list[k].prior =
         k < catalogue ? kPriorCatalogue / double(catalogue) : kPriorOther / double(out.list.size() - catalogue);
+}
+
+bool is_located(const Explanation& e) {
+  return e.shape == kOneCharacteristic || e.shape == kOneReference || is_over_runs(e);
 }
 
 bool is_over_runs(const Explanation& e) { return !e.effect && e.factor == Factor::run; }

@@ -1,4 +1,5 @@
-// OTHER, of recorded values: what the catalogue does not have. A characteristic that strays by itself, a run that differs
+// OTHER, of recorded values: what the catalogue does not have. A characteristic that strays by itself or a reference that
+// does in all places, a run that differs
 // from the others, what changes from run to run, single values that stray, and a machine with larger errors than specified.
 #pragma once
 
@@ -11,6 +12,11 @@ namespace abbe::diagnose {
 
 /// The shape of the pattern that one characteristic strays by itself, in all its repeats alike.
 inline constexpr const char* kOneCharacteristic = "one characteristic";
+/// That one does of one reference, and of one artefact where rows say which, alike in all places where it was measured.
+inline constexpr const char* kOneReference = "one reference";
+
+/// Whether a pattern says where values stray, so that no name of the catalogue that acts elsewhere too is near it.
+bool is_located(const Explanation&);
 
 /// To the explanations of the case, whose judges are there. Sets the priors of all of them.
 void add_value_patterns(ValueCase&);

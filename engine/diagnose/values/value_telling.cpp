@@ -159,20 +159,6 @@ void tell_name(const ValueCase& c, const Closer& closer, const Finding& f, doubl
   out.effects.push_back(std::move(e));
 }
 
-void tell_strays_alike(const ValueCase& c, const StraysAlike& s, Diagnosis& out) {
-  const Vector pattern = s.size * s.column(of_figures(c.ensemble.values));
-  out.unexplained = pattern_of_size(Factor::feature, kOneCharacteristic,
-                                    std::sqrt(pattern.squaredNorm() / double(pattern.size())), s.energy);
-  out.verdict = Verdict::unexplained;
-  out.unexplained->sentence = fmt::format(
-      "No effect of the catalogue explains it: {} ({:.9g} {} by reference) strays alike in all {} places where it was measured, by {} {}, and what the other values say of the machine does not explain it.",
-      s.label, s.reference, s.angle ? "degrees" : "mm", s.places, two_digits(std::abs(s.size)),
-      s.angle ? "urad" : "um");
-  out.otherwise = fmt::format(
-      "Check reference and U of {}, and the surfaces of the artefact there: they are the same in all places, and the machine is not.",
-      s.label);
-}
-
 void tell_pattern(const ValueCase& c, const Closer& closer, const Finding& f, Diagnosis& out) {
   const Explanation& e = closer.explanation(f);
   const Vector sizes = sizes_of(closer.search, f.variant, c.deviation).mean, all = closer.variant(f).signature * sizes,
@@ -191,6 +177,18 @@ void tell_pattern(const ValueCase& c, const Closer& closer, const Finding& f, Di
         1 - closer.search.white(c.deviation - all).squaredNorm() / closer.search.white(c.deviation).squaredNorm();
     where.p = out.p_value;
     out.location.push_back(std::move(where));
+    return;
+  }
+  if (e.shape == kOneReference) {
+    Eigen::Index at = 0;
+    const double most = all.cwiseAbs().maxCoeff(&at);
+    const auto row = static_cast<std::size_t>(at);
+    out.unexplained->sentence = fmt::format(
+        "No effect of the catalogue explains it: {}, by {} {}, and what the other values say of the machine does not explain it.",
+        closer.variant(f).told, two_digits(most), c.ensemble.values[row].angle ? "urad" : "um");
+    out.otherwise = fmt::format(
+        "Check reference and U of {}, and the surfaces of the artefact there: they are the same in all places, and the machine is not.",
+        abbe::labels_of(c.recording->rows[row].characteristic).back());
     return;
   }
   if (e.shape == kOneCharacteristic) {
