@@ -315,6 +315,16 @@ class Mistakes(Input):
         self.assertIn("write the columns nx, ny, nz as they are now ny, nx, nz; or, where the normals are right, ax, ay, az as they are now ay, ax, az",
                       told.replace("write the columns ax", "ax"))
 
+    def test_no_touch_is_made_along_its_normal(self):
+        turned = lambda row: row | ({"n" + a: repr(-float(row["n" + a])) for a in "xyz"} if row["feature"] == "PLB" else {})
+        for options in ((), ("--program", PROGRAM)):
+            told = self.told("E0701", turned, *options)
+            self.assertIn("at touch 1 of 'PLB' the machine travels along the normal, out of the material, not against it (in all 4 of 'PLB')", told)
+        no_travel = lambda row: {k: v for k, v in row.items() if k not in ("ax", "ay", "az")}
+        self.assertIn("at touch 1 of 'PLB'", self.told("E0701", lambda row: no_travel(turned(row)), "--program", PROGRAM))
+        along = lambda row: row | ({"ax": "0", "ay": "0", "az": "1"} if row["feature"] == "PLB" and row["touch"] == "3" else {})
+        self.assertRegex(self.told("E0701", along), r"at touch 3 of 'PLB' the machine travels along the surface, which touches nothing\n")
+
     def test_a_hollow_ball_is_told_and_judged(self):
         """Normals that point into a ball whose stylus nobody knows: it may be hollow."""
         folder = harness.ROOT / "examples/iso10360"

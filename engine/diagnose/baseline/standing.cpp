@@ -241,8 +241,9 @@ Recording put_on_targets(const Recording& recorded, double most_out_mm, const st
     for (const Aimed& a : rows)
       out.rows[a.row - recorded.rows.data()].position_mm += a.bend_mm(X) * (there.R * a.normal());
     const std::string where = fmt::format(
-        "{}: in setup {} the part stood {:.2f} mm beside {} and turned by {:.3f} degrees; ", file, setup,
-        norm(inverse(X) * middle - middle), planned ? "where its program has it" : "its targets", angle_deg(X.R));
+        "{}: in setup {} the touches lie as if the part stood {:.2f} mm beside {} and turned by {:.3f} degrees; ", file,
+        setup, norm(inverse(X) * middle - middle), planned ? "where its program has it" : "its targets",
+        angle_deg(X.R));
     messages.push_back(
         planned
             ? diagnostic(Code::N0709, where + "its targets are carried there",

@@ -1,6 +1,7 @@
 #include "engine/diagnose/checks/normals.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -131,6 +132,31 @@ void check_orders(const TouchedRows& logged, const Mat3& back, bool normals_stan
   }
 }
 
+/// No touch is made along its normal, or along the surface.
+void check_each_normal(const TouchedRows& rows, const Mat3& back, const std::string& file) {
+  const RecordingRow* first = nullptr;
+  double along = 0;
+  std::map<std::string, int> touches;
+  for (const RecordingRow* row : rows) {
+    if (!row->normal || !row->travel) continue;
+    const double cosine = dot(*row->normal, row->travel_as_planned ? *row->travel : back * *row->travel);
+    if (cosine < -kTouched) continue;
+    ++touches[row->feature];
+    if (!first) first = row, along = cosine;
+  }
+  if (!first) return;
+  std::vector<std::string> all;
+  for (const auto& [feature, count] : touches) all.push_back(fmt::format("{} of '{}'", count, feature));
+  refuse(
+      file,
+      fmt::format(
+          "at touch {} of '{}' the machine travels {}{}", first->touch, first->feature,
+          along > kTouched ? "along the normal, out of the material, not against it"
+                           : "along the surface, which touches nothing",
+          all.size() == 1 && touches.begin()->second == 1 ? "" : fmt::format(" (in all {})", fmt::join(all, ", "))),
+      "normals point out of the material and ax, ay, az in the direction of travel: correct nx, ny, nz of these touches, or ax, ay, az where the normals are right");
+}
+
 }  // namespace
 
 void check_normals_of_balls(const Recording& r, const std::string& file) {
@@ -219,7 +245,7 @@ void check_normals(const std::vector<const RecordingRow*>& rows, const Mat3& bac
           normals_stand ? "the normals stand on the balls of the targets: correct the sign in the recording"
                         : fmt::format("correct the sign of n{0}, or of a{0} where that is wrong", "xyz"[axis]));
   check_orders(logged, back, normals_stand, file);
-  if (median(std::move(along)) < 0) return;
+  if (median(std::move(along)) < 0) return check_each_normal(rows, back, file);
   refuse(
       file, "the machine travels along the normals, out of the material, not against them",
       "normals point out of the material and ax, ay, az in the direction of travel: turn round the columns that are the other way");
