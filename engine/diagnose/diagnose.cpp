@@ -93,6 +93,7 @@ Recording ready(const Recording& recorded, const Machine& machine, const Diagnos
 Recording planned(Recording recorded, const std::string& file, std::vector<Diagnostic>& messages) {
   for (RecordingRow& row : recorded.rows)
     if (row.target_mm) row.position_mm = *row.target_mm;
+  if (!recorded.in_part_frame) read_at_targets(recorded);
   leave_out_clock_at_rest(recorded, file, messages);
   doubt_run_numbers(recorded, file, messages);
   count_from_first_touch(recorded, file, messages);

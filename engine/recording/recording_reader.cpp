@@ -61,8 +61,9 @@ struct Put {
   std::string operator()(std::optional<double> RecordingRow::*member) const {
     const RecordingColumn& column = described(read);
     draft.row.*member = number(field, column);
-    return draft.row.*member
-        ? ""
+    if (draft.row.*member) return "";
+    return member == &RecordingRow::time_s
+        ? "seconds from any moment on, with a decimal point and no unit: 08:00:10.02 is 28810.02"
         : fmt::format("a number from {:g} to {:g}, with a decimal point and no unit", column.low, column.high);
   }
   std::string operator()(Vec3 RecordingRow::*) const { return coordinate(); }

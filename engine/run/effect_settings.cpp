@@ -21,6 +21,9 @@ std::string did_you_mean(std::string_view name, const std::vector<std::string_vi
   return near.empty() ? otherwise : "did you mean '" + near + "'?";
 }
 
+/// An ordinal that may stand for none in particular: the stylus in every orientation, every setup.
+bool may_be_all(const EffectParameter& p) { return p.is_code() && p.choices.empty() && p.low == 0; }
+
 /// A setting that cannot be used, said where it stands.
 class Refusal {
  public:
@@ -42,8 +45,9 @@ class Refusal {
   [[noreturn]] void impossible(const EffectParameter& p, const std::string& value, Span span) const {
     const std::string unit = p.unit == "1" ? "" : fmt::format(" {}", p.unit);
     const std::string help = !p.choices.empty() ? fmt::format("give one of: {}", fmt::join(p.choices, ", "))
-        : p.is_code()                           ? fmt::format("give a whole number from {:g} to {:g}", p.low, p.high)
-                                                : fmt::format("give a number from {:g} to {:g}{}", p.low, p.high, unit);
+        : may_be_all(p) ? fmt::format("give {}, or a whole number from {:g} to {:g}", kAll, p.low, p.high)
+        : p.is_code()   ? fmt::format("give a whole number from {:g} to {:g}", p.low, p.high)
+                        : fmt::format("give a number from {:g} to {:g}{}", p.low, p.high, unit);
     refuse(span, Code::E0307,
            fmt::format("{}={} is not {}", p.name, value, p.is_code() ? "a value that it can have" : "plausible"), help);
   }
@@ -85,6 +89,7 @@ std::optional<std::size_t> parameter_index(const Effect& effect, const std::stri
 double checked_value(const EffectParameter& p, const EffectSetting::Value& given, const Refusal& refusal) {
   double value = given.value;
   if (!given.word.empty()) {
+    if (may_be_all(p) && given.word == kAll) return 0;
     const auto found = std::find(p.choices.begin(), p.choices.end(), given.word);
     if (p.choices.empty() && finite_number(given.word)) refusal.quoted_number(p, given.word, given.span);
     if (found == p.choices.end()) refusal.impossible(p, given.word, given.span);

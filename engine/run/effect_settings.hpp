@@ -2,12 +2,16 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/effects/effect.hpp"
 #include "engine/machine/machine.hpp"
 
 namespace abbe {
+
+/// The word for 0 of an ordinal that may stand for none in particular.
+inline constexpr std::string_view kAll = "all";
 
 struct ResolvedEffect {
   const Effect* effect = nullptr;

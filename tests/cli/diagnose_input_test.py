@@ -262,6 +262,7 @@ class Mistakes(Input):
         elsewhere = self.scaled(self.PLACE, 1e-3)
         self.assertIn("in metres", self.told("E0701", lambda row: elsewhere(row | {"x": repr(float(row["x"]) + 500)})))   # wherever the part stood
         self.assertIn("line", self.told("E0530", lambda row: row | {"x": "1e300"}).replace("changed.csv:", "line "))
+        self.assertIn("it holds seconds from any moment on", self.told("E0530", lambda row: row | {"time_s": "08:00:10.02"}))
 
     def test_units_of_readings_where_the_head_turns(self):
         """The readings jump from orientation to orientation; those of one orientation tell the unit."""

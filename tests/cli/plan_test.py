@@ -32,6 +32,8 @@ class Plan(harness.Case):
         """Rough ones were taken for those of a part with unknown surfaces, and nothing could be judged."""
         anywhere = self.changed(self.record(), lambda row: row | {"x": "0", "y": row["x"], "z": repr(float(row["z"]) + 0.5)}, "anywhere.csv")
         self.assertEqual(self.diagnosis(anywhere, "--design-only"), self.plan())
+        read = self.changed(self.record(), lambda row: row | {f"enc_{a}": repr(float(row[f"enc_{a}"]) + 0.1 * float(row["n" + a])) for a in "xyz"}, "read.csv")
+        self.assertEqual(self.diagnosis(read, "--design-only"), self.plan())
 
     def test_what_can_be_named_is_named(self):
         """Half as large again as what is told; the last one has richer rivals that could imitate it."""

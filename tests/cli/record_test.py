@@ -185,6 +185,7 @@ with tempfile.TemporaryDirectory() as folder:
                                   (["--with", "probe.tip_radius:amplitude=1"], "E0306", "did you mean 'amplitude_um'?"),
                                   (["--with", "probe.tip_radius:amplitude_um=1e9"], "E0307", "not plausible"),
                                   (["--with", "probe.tip_radius:amplitude_um=nan"], "E0307", "nan"),
+                                  (["--with", "probe.step:amplitude_um=5,tip=every"], "E0307", "give all, or a whole number from 0 to 1000"),
                                   (["--with", "machine.scale:axis=q"], "E0307", "x, y, z"),
                                   (["--with", "noise.outliers:share=2"], "E0307", "a number from 0 to 0.5\n"),
                                   (["--with", "machine.scale_interpolation:amplitude_um=5"], "E0307", "read backwards"),
@@ -201,6 +202,10 @@ with tempfile.TemporaryDirectory() as folder:
         run, out = record(folder, *arguments)
         check(run.returncode == 2 and code in run.stderr and text in run.stderr, f"{' '.join(arguments)}: {code}")
         check(not out.exists(), "nothing is written then")
+
+with tempfile.TemporaryDirectory() as folder:
+    steps = [rows(record(folder, "--with", f"probe.step:amplitude_um=5,t0_s=5,tip={tip}")[1]) for tip in ("0", "all")]
+    check(steps[0] == steps[1], "tip=all, as a diagnosis tells it, is tip=0")
 
 with tempfile.TemporaryDirectory() as folder:
     PROGRAM = ROOT / "examples/programs/prismatic_part.dmi"

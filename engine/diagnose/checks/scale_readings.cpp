@@ -283,4 +283,18 @@ void leave_out_commanded_readings(Recording& recording, const std::string& file,
   for (RecordingRow& row : recording.rows) row.reading_mm.reset();
 }
 
+void read_at_targets(Recording& recording) {
+  using Stylus = std::tuple<std::optional<std::string>, std::optional<double>, std::optional<double>>;
+  std::map<Stylus, std::vector<RecordingRow*>> touched;
+  for (RecordingRow& row : recording.rows)
+    if (row.reading_mm && row.target_mm) touched[{row.sensor, row.head_a_deg, row.head_b_deg}].push_back(&row);
+  for (const auto& [stylus, rows] : touched)
+    for (int axis = 0; axis < 3; ++axis) {
+      std::vector<double> beside;
+      for (const RecordingRow* row : rows) beside.push_back((*row->reading_mm)[axis] - (*row->target_mm)[axis]);
+      const double middle = std::round(median(std::move(beside)));
+      for (RecordingRow* row : rows) (*row->reading_mm)[axis] = (*row->target_mm)[axis] + middle;
+    }
+}
+
 }  // namespace abbe::diagnose

@@ -25,5 +25,8 @@ void leave_out_readings_without_phase(Recording&, const std::string& file, std::
 /// Takes readings of the scales out that follow the targets and not the touches (W0729): effects of the readings would
 /// take each touch's own deviation from them.
 void leave_out_commanded_readings(Recording&, const std::string& file, std::vector<Diagnostic>& messages);
+/// Makes readings what they would be at the targets, in machine coordinates: by stylus and orientation as far beside them as in
+/// the middle of all, to a millimetre.
+void read_at_targets(Recording&);
 
 }  // namespace abbe::diagnose

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "engine/run/effect_settings.hpp"
+
 namespace abbe::diagnose {
 
 std::string called(const EffectParameter& parameter, int number, const RecordedTouches& touches) {
@@ -19,7 +21,7 @@ std::string called(const EffectParameter& parameter, int number, const RecordedT
 std::string word_of(const EffectParameter& parameter, double value, const RecordedTouches& touches) {
   if (!parameter.choices.empty())
     return std::string(parameter.choices[static_cast<std::size_t>(value - parameter.low + 0.5)]);
-  if (value == 0 && parameter.is_code()) return "all";
+  if (value == 0 && parameter.is_code()) return std::string(kAll);
   if (value == 0 && parameter.sought == Sought::speed) return "none";
   return called(parameter, static_cast<int>(value), touches);
 }
