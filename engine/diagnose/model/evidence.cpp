@@ -211,31 +211,35 @@ void EvidenceSearch::judge_recording() {
 std::vector<Evidence> EvidenceSearch::bootstrap(double observed, const NoiseLaw& law, const Replicates& replicates,
                                                 std::uint64_t seed, int threads) const {
   constexpr int kEnough = 10, kEnoughNear = 20, kMoreNear = 6;
+  constexpr int kAsked = 20;  // after so many, whether they are enough
   std::vector<Evidence> out;
   std::vector<double> statistics;
   int extreme = 0;
-  const auto judged_from = [&](int first, int most) {
-    Matrix recordings(rows(), std::min(kTogether, most - first));
+  const auto judged_from = [&](int first, int count) {
+    Matrix recordings(rows(), count);
     for (int k = 0; k < static_cast<int>(recordings.cols()); ++k)
       recordings.col(k) = ensembles_[alone_.ensemble].simulated(alone_.level, law, seed, first + k);
     return judge(seen(recordings));
   };
   const auto simulate = [&](int most, int enough) {
+    const std::size_t before = out.size();
     while (static_cast<int>(out.size()) < most && extreme < enough) {
-      // As many groups at once as are likely to be needed, by how many are extreme so far.
+      // As many at once as are likely to be needed, by how many are extreme so far.
       const int first = static_cast<int>(out.size()),
                 needed = std::min(most - first, (enough - extreme) * (first + 1) / (extreme + 1)),
-                groups = std::clamp(needed / kTogether, 1, std::max(threads, 1));
+                each = needed < kAtOnce ? kAsked : kAtOnce, groups = std::clamp(needed / each, 1, std::max(threads, 1));
       std::vector<std::vector<Evidence>> judged(static_cast<std::size_t>(groups));
-      on_threads(groups, threads, [&](int g) { judged[g] = judged_from(first + g * kTogether, most); });
-      for (std::vector<Evidence>& group : judged) {
-        if (extreme >= enough) break;
+      on_threads(groups, threads, [&](int g) {
+        const int from = first + g * each;
+        judged[g] = judged_from(from, std::min(each, most - from));
+      });
+      for (std::vector<Evidence>& group : judged)
         for (Evidence& e : group) {
+          if (extreme >= enough && (out.size() - before) % kAsked == 0) break;
           statistics.push_back(e.statistic);
           extreme += e.statistic >= observed ? 1 : 0;
           out.push_back(std::move(e));
         }
-      }
     }
   };
   simulate(replicates.usual, kEnough);

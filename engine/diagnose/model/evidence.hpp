@@ -55,9 +55,9 @@ struct Replicates {
 
 class EvidenceSearch {
  public:
-  /// How many simulated recordings are seen at once: what is seen of one does not depend on the others. After so many a
-  /// bootstrap asks whether they are enough.
-  static constexpr int kTogether = 20;
+  /// How many simulated recordings are best seen at once, as they fill the longest vectors: what is seen of one does not
+  /// depend on the others.
+  static constexpr int kAtOnce = 40;
 
   EvidenceSearch(const LinearModel&, const Hyperparameters&, const Explanations&);
   /// The search of the touches that are left without some, by the noise and errors of all: fewer touches may tell of others,

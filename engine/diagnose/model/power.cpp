@@ -41,13 +41,13 @@ Power::Power(const EvidenceSearch& of, LargerErrors larger, const EvidenceSearch
 }
 
 double Power::alarm_of(const EvidenceSearch& search, double times, const EvidenceSearch& machines, int threads) const {
-  constexpr int kTogether = EvidenceSearch::kTogether;
   std::vector<double> statistics(static_cast<std::size_t>(recordings_));
-  on_threads(recordings_ / kTogether, threads, [&](int group) {
-    Matrix recordings(search.rows(), kTogether);
-    for (int k = 0; k < kTogether; ++k) recordings.col(k) = machines.in_order(times, seed_, group * kTogether + k);
+  constexpr int kAtOnce = EvidenceSearch::kAtOnce;
+  on_threads(recordings_ / kAtOnce, threads, [&](int group) {
+    Matrix recordings(search.rows(), kAtOnce);
+    for (int k = 0; k < kAtOnce; ++k) recordings.col(k) = machines.in_order(times, seed_, group * kAtOnce + k);
     const std::vector<Evidence> judged = search.judge(search.seen(recordings));
-    for (int k = 0; k < kTogether; ++k) statistics[group * kTogether + k] = judged[k].statistic;
+    for (int k = 0; k < kAtOnce; ++k) statistics[group * kAtOnce + k] = judged[k].statistic;
   });
   return exceeded_by(kAlarm, std::move(statistics));
 }

@@ -20,7 +20,7 @@ struct LargerErrors {
 class Power {
  public:
   /// `of`, and the search of `larger`: outlive it. `machines`: whose recordings are simulated, at its level and with larger
-  /// errors: so many of each, a multiple of EvidenceSearch::kTogether.
+  /// errors: so many of each, a multiple of EvidenceSearch::kAtOnce.
   Power(const EvidenceSearch& of, LargerErrors larger, const EvidenceSearch& machines, int recordings,
         std::uint64_t seed, int threads);
 
