@@ -50,6 +50,19 @@ class DiagnoseRuns(harness.Case):
             self.assertLess(said["improvement"]["chi2_per_dof"]["after"], 1.5)
         self.assertTrue(30 < gains[0] < gains[1], gains)
 
+    def test_a_run_that_scatters_is_no_tip_that_came_and_went(self):
+        """Each touch is made once in it, so that a form of the tip, drawn anew for it, explains all of its scatter; nor do the others scatter with it."""
+        for runs, noisy in ((6, 4), (3, 2)):
+            names, draw = self.balls(runs, {}), random.Random(runs)
+
+            def scattered(row):
+                off = draw.gauss(0, 0.004)
+                return row | {p + a: f"{float(row[p + a]) + off * float(row['n' + a]):.7f}" for a in "xyz" for p in ("", "enc_")}
+            names[noisy - 1] = self.changed(self.folder / names[noisy - 1], scattered, "scattered.csv")
+            said = self.diagnosis(*names)
+            self.assertEqual([e["members"] for e in said["effects"]], [["noise.unequal"]])
+            self.assertIn(f"Touches of run {noisy} scatter", said["effects"][0]["sentence"])
+
     def test_between_two_files_styli_may_have_been_qualified_anew(self):
         """A service qualifies them all: offsets of 0.3 um by orientation. At 1 % two alarms in four come by chance once in 1700 times."""
         alarms = 0

@@ -1,6 +1,7 @@
 """abbe diagnose of values of characteristics: CSV tables and DMIS result files."""
 import itertools
 import json
+import random
 import re
 
 import harness
@@ -93,16 +94,16 @@ class Values(harness.Case):
         def slip(row):
             return row | {"value": repr(float(row["value"]) + 0.01)} if "z1_" in row["program"] and row["run"] == "2" else row
         said = self.diagnosis(self.changed(self.recorded(runs=3), slip))
-        self.assertRegex(said["otherwise"], r"LEN in run 2 is ([89]|1[012])(\.\d)? um beside its other runs, which agree: check what was written there")
+        self.assertRegex(said["otherwise"], r"LEN of \S*z1_L\.dmi in run 2 is ([89]|1[012])(\.\d)? um beside its other runs, which agree: check what was written there")
         self.assertEqual(said["location"][0]["where"]["run"], "2")
 
     def test_what_differs_between_runs_is_told(self):
         """A part that is 2 K warmer in the second run, another ball in it; a part that warms up, what was off at first fades."""
         base = self.recorded(runs=3, lengths=BOTH)
         for more_um, where, sentence in (
-                (lambda run, length: (run == 2) * 23e-3 * length, {"run": "2"}, r"the values of run 2 stray .* in proportion to their lengths, by \+2[234] um per m\."),
+                (lambda run, length: (run == 2) * 23e-3 * length, {"run": "2"}, r"the values of run 2 stray .* in proportion to their lengths by \+2[234] um per m\."),
                 (lambda run, length: -3 * (run == 2), {"run": "2"}, r"the values of run 2 stray .* all by -(2\.[89]|3\.\d) um\."),
-                (lambda run, length: 12e-3 * (run - 1) * length, {}, r"change from run to run, in proportion to their lengths, by \+2[345] um per m from the first to the last\."),
+                (lambda run, length: 12e-3 * (run - 1) * length, {}, r"change from run to run, in proportion to their lengths by \+2[345] um per m from the first to the last\."),
                 (lambda run, length: 1.5 * (3 - run), {}, r"change from run to run, all by -(2\.[89]|3\.\d) um from the first to the last\.")):
             said = self.diagnosis(self.changed(base, lambda row: row | {
                 "value": repr(float(row["value"]) + more_um(int(row["run"]), float(row["reference"])) / 1000)}, "between.csv"))
@@ -111,6 +112,18 @@ class Values(harness.Case):
             self.assertRegex(said["unexplained"]["sentence"], sentence)
             self.assertNotIn("nearest", said["unexplained"]["sentence"])
             self.assertGreater(said["improvement"]["log_score_gain"], 3 * said["improvement"]["se"])
+
+    def test_what_comes_and_goes_with_runs_is_told(self):
+        base = self.recorded(runs=5)
+        draw = random.Random(4)
+        for more_um, where, sentence in (
+                (lambda run: 6 * (run >= 3), {"run": "3"}, r"from run 3 on values are others than before, (all|in proportion to their lengths) by \+"),
+                (lambda run: 9 * (run in (2, 4)), {}, r"values change from run to run, (all|in proportion to their lengths) by .* in run 1, \+.* in run 2, .* in run 3, \+.* in run 4, .* in run 5\."),
+                (lambda run: (run == 4) * draw.gauss(0, 8), {"run": "4"}, r"the values of run 4 scatter by \d+(\.\d)? um, each by itself\.")):
+            said = self.diagnosis(self.changed(base, lambda row: row | {"value": repr(float(row["value"]) + more_um(int(row["run"])) / 1000)}, "between.csv"))
+            self.assertEqual((said["unexplained"]["factor"], said["location"][0]["where"]), ("run", where))
+            self.assertRegex(said["unexplained"]["sentence"], sentence)
+            self.assertNotIn("check what was written there", said["otherwise"])
 
     def test_all_characteristics_that_stray_are_told(self):
         """Both blocks stood on dirt where they stood upright, in three runs: neither strays by itself."""

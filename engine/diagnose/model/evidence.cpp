@@ -59,7 +59,7 @@ void average_variants(const std::vector<Explanation>& explanations, const std::v
     out.log_bayes.push_back(log_sum_exp(variants));
     all.push_back(std::log(x.prior) + out.log_bayes.back());
   }
-  out.statistic = log_sum_exp(all);
+  out.statistic = all.empty() ? 0 : log_sum_exp(all);
   ABBE_CHECK(std::isfinite(out.statistic));  // or a mistake would pass for a machine in order
 }
 
@@ -202,7 +202,7 @@ void EvidenceSearch::judge_recording() {
   alone_ = with_ = likeliest(alone);
   const std::vector<double>& by_variant = evidence_.variant_log_bayes;
   const auto best = std::max_element(by_variant.begin(), by_variant.end());
-  if (*best <= 0) return;
+  if (best == by_variant.end() || *best <= 0) return;
   const auto variant = static_cast<int>(best - by_variant.begin());
   for (std::size_t e = 0; e < y.size(); ++e) with.push_back(ensembles_[e].with_variant(y[e], variant));
   with_ = likeliest(with);

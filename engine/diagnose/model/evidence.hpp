@@ -59,6 +59,7 @@ class EvidenceSearch {
   /// depend on the others.
   static constexpr int kAtOnce = 40;
 
+  /// Without explanations it tells what the baseline alone makes of a recording.
   EvidenceSearch(const LinearModel&, const Hyperparameters&, const Explanations&);
   /// The search of the touches that are left without some, by the noise and errors of all: fewer touches may tell of others,
   /// and what is then said of those left out would be no prediction.

@@ -112,14 +112,14 @@ std::string doubt_of_micrometres(const ValueCase& c) {
                      fmt::join(doubted, " and of "));
 }
 
-std::string doubt_of_single_repeats(const ValueCase& c) {
+std::vector<FarRepeat> far_from_repeats(const ValueCase& c) {
   constexpr std::size_t kLeastRepeats = 3;
   constexpr double kFar = 8, kOfTheOthers = 5,
                    kDigits = 3;  // what a repeat scatters, the range of the others, last digits
   std::map<Value, std::vector<Eigen::Index>> repeats;
   for (std::size_t k = 0; k < c.ensemble.values.size(); ++k)
     repeats[value_of(c.ensemble.values[k])].push_back(static_cast<Eigen::Index>(k));
-  std::vector<std::string> doubted;
+  std::vector<FarRepeat> out;
   for (const auto& [value, rows] : repeats) {
     if (rows.size() < kLeastRepeats) continue;
     const Vector apart = c.ensemble.simulated.col(rows[0]) - c.ensemble.simulated.col(rows[1]);
@@ -132,12 +132,20 @@ std::string doubt_of_single_repeats(const ValueCase& c) {
       const double range = *most - *least, beside = c.deviation(k) - median(others);
       const auto at = static_cast<std::size_t>(k);
       const double digit = c.recording->rows[at].last_digit / c.ensemble.values[at].reported();
-      if (std::abs(beside) < std::max({kFar * scatter, kOfTheOthers * range, kDigits * digit})) continue;
-      doubted.push_back(fmt::format("{} in run {} is {} {} beside its other runs", c.recording->rows[at].characteristic,
-                                    c.recording->rows[at].run, two_digits(std::abs(beside)),
-                                    c.ensemble.values[at].angle ? "urad" : "um"));
+      if (std::abs(beside) >= std::max({kFar * scatter, kOfTheOthers * range, kDigits * digit}))
+        out.push_back({at, beside});
     }
   }
+  return out;
+}
+
+std::string doubt_of_single_repeats(const ValueCase& c) {
+  const std::vector<std::string> labels = labels_of(c);
+  std::vector<std::string> doubted;
+  for (const auto& [value, beside] : far_from_repeats(c))
+    doubted.push_back(fmt::format("{} in run {} is {} {} beside its other runs", labels[value],
+                                  c.recording->rows[value].run, two_digits(std::abs(beside)),
+                                  c.ensemble.values[value].angle ? "urad" : "um"));
   if (doubted.empty()) return "";
   return fmt::format("{}, which agree: check what was written there, and measure it again.",
                      fmt::join(doubted, ", and "));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "engine/diagnose/values/value_case.hpp"
 
@@ -19,7 +20,14 @@ void refuse_copied_values(const ValueCase&);
 /// measure: they may be in micrometres. A part may have such a form, so they are not refused. Empty: there are none.
 std::string doubt_of_micrometres(const ValueCase&);
 
-/// What to say of values that lie far from their repeats in other runs, which agree: a slip of one run. Empty: there are none.
+/// A value that lies far from its repeats in other runs, which agree; by so much, um or urad.
+struct FarRepeat {
+  std::size_t value;
+  double beside;
+};
+std::vector<FarRepeat> far_from_repeats(const ValueCase&);
+
+/// What to say of such values: a slip of one run. Empty: there are none.
 std::string doubt_of_single_repeats(const ValueCase&);
 
 /// Whether every value is, to its last digit, what it should be. Machines of the specification would not report that: the

@@ -103,7 +103,8 @@ Location strongest(const std::vector<JudgedValue>& values) {
 /// What sets the recording apart from machines in order.
 void tell_mismatch(const ValueCase& c, Diagnosis& out) {
   tell_explanation(c, Closer(c), out);
-  for (const std::string& slip : {doubt_of_single_repeats(c), doubt_of_micrometres(c)})
+  const bool between_runs = out.unexplained && out.unexplained->factor == name(Factor::run);
+  for (const std::string& slip : {between_runs ? "" : doubt_of_single_repeats(c), doubt_of_micrometres(c)})
     if (!slip.empty()) out.otherwise = slip + (out.otherwise.empty() ? "" : " ") + out.otherwise;
   out.location.push_back(strongest(out.values));
 }

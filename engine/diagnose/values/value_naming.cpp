@@ -11,6 +11,7 @@
 #include "engine/diagnose/findings/belief.hpp"
 #include "engine/diagnose/findings/members.hpp"
 #include "engine/diagnose/findings/search.hpp"
+#include "engine/diagnose/values/value_checks.hpp"
 #include "engine/diagnose/values/value_improvement.hpp"
 #include "engine/diagnose/values/value_patterns.hpp"
 #include "engine/diagnose/values/value_telling.hpp"
@@ -92,6 +93,17 @@ std::optional<Finding> pattern_of(const Explanations& all, const Evidence& evide
   return finding_of_one(all, evidence, static_cast<int>(found - all.list.begin()));
 }
 
+/// Whether one or two values that lie far from their repeats are all that is wrong: no run scatters then.
+bool are_slips(const ValueCase& c) {
+  const std::vector<FarRepeat> far = far_from_repeats(c);
+  if (far.empty() || far.size() > 2) return false;
+  Matrix slips = Matrix::Zero(c.deviation.size(), static_cast<Eigen::Index>(far.size()));
+  for (std::size_t k = 0; k < far.size(); ++k)
+    slips(static_cast<Eigen::Index>(far[k].value), static_cast<Eigen::Index>(k)) = 1;
+  const ValueSearch without(c.judges.mean, c.judges.covariance, c.search->explanations(), slips);
+  return chance_of(c, without, c.judges.judged) >= kInadequate;
+}
+
 void strike(const Explanations& all, const std::string& shape, Evidence& evidence) {
   for (std::size_t k = 0; k < all.list.size(); ++k)
     if (all.list[k].shape == shape) evidence.log_bayes[k] = kStruck;
@@ -124,6 +136,7 @@ void tell_explanation(const ValueCase& c, const Closer& closer, Diagnosis& out) 
   Evidence evidence = closer.search.evidence(c.deviation);
   const std::optional<Finding> reference = one_reference(c, closer, evidence);
   if (!reference) strike(closer.search.explanations(), kOneReference, evidence);
+  if (are_slips(c)) strike(closer.search.explanations(), kScatterOfRun, evidence);
   auto [name, pattern] = possible_name(c, closer, evidence);
   const double adequacy = adequacy_of(c, closer, name);
   const bool doubted = adequacy < kInadequate && leaves_less(left_by_chance(c, closer, pattern), adequacy);

@@ -1,9 +1,11 @@
 #include "engine/diagnose/values/value_patterns.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <set>
 #include <tuple>
@@ -15,9 +17,8 @@ namespace abbe::diagnose {
 
 namespace {
 
-constexpr const char *kOneRun = "one run", *kOneRunByLength = "one run, in proportion to length",
-                     *kFromRunToRun = "from run to run",
-                     *kFromRunToRunByLength = "from run to run, in proportion to length";
+constexpr std::string_view kOneRun = "one run", kFromOneRunOn = "from one run on", kFromRunToRun = "from run to run",
+                           kEachRun = "each run by itself", kByLength = ", in proportion to length";
 
 /// A column by label, as far as values deviate: all repeats by the same, since they tell each other to a fraction of that.
 std::vector<patterns::Family::Told> by_characteristic(const ValueCase& c, const Vector& deviation) {
@@ -87,40 +88,64 @@ Vector column_over_runs(const ValueCase& c, const Vector& deviation, auto&& in_r
   return typical * column;
 }
 
-void add_over_runs(const ValueCase& c, const Vector& deviation, Explanations& out) {
-  constexpr std::size_t kLeastInRun = 3, kLeastRuns = 3;
-  std::map<int, std::size_t> runs;
-  for (const Eigen::Index k : moved_alike(c)) ++runs[run_of(c, k)];
-  if (runs.size() < 2) return;
-  patterns::Family family(Factor::run, out);
-  const auto same = [](Eigen::Index) { return 1.0; };
-  const auto by_length = [&](Eigen::Index k) { return length_m(c, k); };
-  std::vector<patterns::Family::Told> one, one_by_length;
-  for (const auto& [run, count] : runs) {
-    if (count < kLeastInRun) continue;  // single values that stray
-    const auto in_it = [run = run](int r) { return r == run ? 1.0 : 0.0; };
-    one.push_back({fmt::format("run {}", run), column_over_runs(c, deviation, in_it, same)});
-    one_by_length.push_back({one.back().what, column_over_runs(c, deviation, in_it, by_length)});
+std::string called(int run) { return fmt::format("run {}", run); }
+
+/// Everything that may differ between runs; `column` makes one of what each run has, by its place among all. `names`: of runs
+/// that may be told by themselves, else empty.
+void add_changes(std::string_view by, std::size_t runs, const std::vector<std::string>& names, auto&& column,
+                 patterns::Family& family) {
+  constexpr std::size_t kLeastRuns = 3;
+  const double last = double(runs - 1);
+  const auto add = [&](std::string_view shape, const auto& variants) {
+    if (!variants.empty()) family.add(fmt::format("{}{}", shape, by), variants);
+  };
+  std::vector<patterns::Family::Told> one, from_one_on;
+  for (std::size_t k = 0; k < runs; ++k) {
+    if (names[k].empty()) continue;  // single values that stray
+    one.push_back({names[k], column([&](std::size_t place) { return place == k ? 1.0 : 0.0; })});
+    if (k > 1 && k + 1 < runs)  // or all but the first differ, or the last alone
+      from_one_on.push_back({names[k], column([&](std::size_t place) { return place >= k ? 1.0 : 0.0; })});
   }
-  const auto add = [&](const char* shape, const std::vector<patterns::Family::Told>& variants) {
-    if (!variants.empty()) family.add(shape, variants);
-  };
-  const bool lengths = length_m(c, moved_alike(c).front()) > 0;
   add(kOneRun, one);
-  if (lengths) add(kOneRunByLength, one_by_length);
-  if (runs.size() < kLeastRuns) return;
+  add(kFromOneRunOn, from_one_on);
+  if (runs < kLeastRuns) return;
   // What grows from the first run on, or fades until the last.
-  const auto place = [&](int run) {
-    return double(std::distance(runs.begin(), runs.find(run))) / double(runs.size() - 1);
+  add(kFromRunToRun,
+      std::vector<Matrix>{column([&](std::size_t place) { return double(place) / last; }),
+                          column([&](std::size_t place) { return 1 - double(place) / last; })});
+  Matrix each(column([](std::size_t) { return 0.0; }).rows(), static_cast<Eigen::Index>(runs));
+  for (std::size_t k = 0; k < runs; ++k)
+    each.col(static_cast<Eigen::Index>(k)) = column([&](std::size_t place) { return place == k ? 1.0 : 0.0; });
+  add(kEachRun, std::vector<Matrix>{each});
+}
+
+void add_over_runs(const ValueCase& c, const Vector& deviation, Explanations& out) {
+  constexpr std::size_t kLeastInRun = 3;
+  const std::vector<Eigen::Index> moved = moved_alike(c);
+  std::map<int, std::vector<Eigen::Index>> runs;
+  for (const Eigen::Index k : moved) runs[run_of(c, k)].push_back(k);
+  if (runs.size() < 2) return;
+  std::vector<std::string> names;
+  for (const auto& [run, values] : runs) names.push_back(values.size() < kLeastInRun ? "" : called(run));
+  patterns::Family family(Factor::run, out);
+  const auto add = [&](std::string_view by, auto&& of) {
+    const auto column = [&](auto&& in_run) {
+      return Matrix(column_over_runs(
+          c, deviation,
+          [&](int run) { return in_run(static_cast<std::size_t>(std::distance(runs.begin(), runs.find(run)))); }, of));
+    };
+    add_changes(by, runs.size(), names, column, family);
   };
-  const auto from_last = [&](int run) { return 1 - place(run); };
-  const auto add_change = [&](const char* shape, auto&& of) {
-    const std::vector<Matrix> grows_or_fades = {column_over_runs(c, deviation, place, of),
-                                                column_over_runs(c, deviation, from_last, of)};
-    family.add(shape, grows_or_fades);
-  };
-  add_change(kFromRunToRun, same);
-  if (lengths) add_change(kFromRunToRunByLength, by_length);
+  add("", [](Eigen::Index) { return 1.0; });
+  if (length_m(c, moved.front()) > 0) add(kByLength, [&](Eigen::Index k) { return length_m(c, k); });
+  std::vector<patterns::Family::Told> scatter;
+  for (const auto& [run, values] : runs) {
+    if (values.size() < kLeastInRun) continue;
+    Vector own = Vector::Zero(deviation.size());
+    own(values) = deviation(values);
+    scatter.push_back({called(run), Matrix(own.asDiagonal())(Eigen::all, values)});
+  }
+  if (!scatter.empty()) family.add(kScatterOfRun, scatter);
 }
 
 }  // namespace
@@ -150,28 +175,43 @@ bool is_located(const Explanation& e) {
 bool is_over_runs(const Explanation& e) { return !e.effect && e.factor == Factor::run; }
 
 InWords over_runs(const ValueCase& c, const Explanation& e, const Variant& variant, const Vector& predicted) {
-  const bool by_length = e.shape == kOneRunByLength || e.shape == kFromRunToRunByLength;
+  const bool by_length = e.shape.ends_with(kByLength);
   const std::vector<Eigen::Index> moved = moved_alike(c);
-  const auto rank = [&](Eigen::Index k) {
-    return variant.told.empty() ? run_of(c, k) : variant.told == fmt::format("run {}", run_of(c, k)) ? 1 : 0;
-  };
-  const auto [from, to] = std::minmax_element(moved.begin(), moved.end(),
-                                              [&](Eigen::Index a, Eigen::Index b) { return rank(a) < rank(b); });
-  const auto of = [&](Eigen::Index k) { return by_length ? predicted(k) / length_m(c, k) : predicted(k); };
-  const double more = of(*to) - of(*from);
-  const std::string by = fmt::format("{} {}{} {}", by_length ? "in proportion to their lengths, by" : "all by",
-                                     more < 0 ? "-" : "+", two_digits(std::abs(more)),
-                                     by_length                  ? "um per m"
-                                         : length_m(c, *to) > 0 ? "um"
-                                                                : "urad");
+  const std::string unit = by_length ? "um per m" : c.ensemble.values[moved.front()].angle ? "urad" : "um";
+  std::map<int, double> amount;
+  double squares = 0, of_run = 0;
   InWords out;
-  if (!variant.told.empty()) out.run = run_of(c, *to);
-  out.what = variant.told.empty()
-      ? fmt::format("values change from run to run, {} from the first to the last", by)
-      : fmt::format("the values of {} stray from those of the other runs, {}", variant.told, by);
+  for (const Eigen::Index k : moved) {
+    const int run = run_of(c, k);
+    amount[run] = by_length ? predicted(k) / length_m(c, k) : predicted(k);
+    if (variant.told != called(run)) continue;
+    out.run = run, squares += predicted(k) * predicted(k), of_run += 1;
+  }
+  const auto with_sign = [&](double value) {
+    return fmt::format("{}{} {}", value < 0 ? "-" : "+", two_digits(std::abs(value)), unit);
+  };
+  const std::string how = by_length ? "in proportion to their lengths" : "all", &told = variant.told;
   out.otherwise = by_length
       ? "Machine and part are the same in all runs, so see how warm the part and the scales were in each: 11.5 um per m are 1 K of steel. Give the touches themselves, with time_s and temperatures, and effects can be told that come and go."
       : "Machine and part are the same in all runs, so see what was done between them: a stylus qualified anew, dirt on it, a part clamped otherwise. Give the touches themselves, with time_s and run, and effects can be told that come and go.";
+  if (e.shape == kScatterOfRun) {
+    out.what = fmt::format("the values of {} scatter by {} {}, each by itself", told,
+                           two_digits(std::sqrt(squares / of_run)), unit);
+    out.otherwise = fmt::format("See what was loose, dirty or shaking in {}, and measure it again.", told);
+  } else if (e.shape.starts_with(kOneRun)) {
+    out.what = fmt::format("the values of {} stray from those of the other runs, {} by {}", told, how,
+                           with_sign(amount[*out.run]));
+  } else if (e.shape.starts_with(kFromOneRunOn)) {
+    out.what =
+        fmt::format("from {} on values are others than before, {} by {}", told, how, with_sign(amount[*out.run]));
+  } else if (e.shape.starts_with(kEachRun)) {
+    std::vector<std::string> each;
+    for (const auto& [run, by] : amount) each.push_back(fmt::format("{} in {}", with_sign(by), called(run)));
+    out.what = fmt::format("values change from run to run, {} by {}", how, fmt::join(each, ", "));
+  } else {
+    out.what = fmt::format("values change from run to run, {} by {} from the first to the last", how,
+                           with_sign(amount.rbegin()->second - amount.begin()->second));
+  }
   return out;
 }
 

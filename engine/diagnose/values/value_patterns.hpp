@@ -15,6 +15,9 @@ inline constexpr const char* kOneCharacteristic = "one characteristic";
 /// That one does of one reference, and of one artefact where rows say which, alike in all places where it was measured.
 inline constexpr const char* kOneReference = "one reference";
 
+/// That the values of one run scatter, each by itself.
+inline constexpr const char* kScatterOfRun = "scatter of one run";
+
 /// Whether a pattern says where values stray, so that no name of the catalogue that acts elsewhere too is near it.
 bool is_located(const Explanation&);
 

@@ -168,6 +168,9 @@ std::string not_judged(const Diagnosis& d) {
   return "<h2>What cannot be judged</h2>\n" + html_table(rows);
 }
 
+/// As the sentences tell it: further out simulations say nothing.
+std::string p_in_words(double p) { return p < 1e-4 ? "p < 0.0001" : fmt::format("p = {:.2g}", p); }
+
 std::string messages(const Diagnosis& d) {
   if (d.messages.empty()) return "";
   std::string out = "<h2>Messages</h2>\n<ul>";
@@ -181,7 +184,7 @@ std::string messages(const Diagnosis& d) {
 std::string diagnosis_html(const Diagnosis& d, const std::string& recording, const std::string& machine) {
   std::string body =
       fmt::format("<h1>{}</h1>\n<p class=\"note\">Recording {}; machine {}{}</p>\n", title(d), escaped(recording),
-                  escaped(machine), d.judged == Judged::yes ? fmt::format("; p = {:.3g}", d.p_value) : "");
+                  escaped(machine), d.judged == Judged::yes ? "; " + p_in_words(d.p_value) : "");
   for (const std::string& sentence : diagnosis_sentences(d)) body += html_paragraphs(sentence);
   return html_page("Diagnosis of " + recording,
                    body + explanations(d) + improvement(d) + values(d) + residual_plots(d) + next_steps(d) +

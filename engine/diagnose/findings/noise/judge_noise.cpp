@@ -67,6 +67,24 @@ std::vector<NoiseFinding> judge_noise(const Case& c, const SearchResult& result)
 
 namespace {
 
+/// Touches of a group have a noise of their own.
+void part_noise(const TouchGroup& group, LinearModel& m, auto&& touch_of_row) {
+  for (std::size_t k = 0; k < m.noise_group.size(); ++k)
+    if (group.in(touch_of_row(k)) == 1) m.noise_group[k] = m.noise_groups;
+  ++m.noise_groups;
+  for (std::size_t k = 1; k < m.follows.size(); ++k) m.follows[k] &= m.noise_group[k] == m.noise_group[k - 1];
+}
+
+/// How much likelier the recording is, without any explanation, where these touches have a noise of their own: nats.
+double gain_of_own_noise(const TouchGroup& group, const Case& c) {
+  const auto log_likelihood = [](const LinearModel& m) {
+    return EvidenceSearch(m, estimate(m), {}).evidence().log_null;
+  };
+  LinearModel parted = c.model;
+  part_noise(group, parted, [&](std::size_t k) { return static_cast<Eigen::Index>(c.rows[k]); });
+  return log_likelihood(parted) - log_likelihood(c.model);
+}
+
 /// What repeats alike is none.
 std::optional<NoisyGroup> noisiest_unlike(const Case& c) {
   const Residuals r = residuals(c, {});
@@ -94,15 +112,11 @@ bool explains_more(const NoisyGroup& noisy, const Case& c, const Evidence& first
   for (std::size_t i = 0; i < c.touches.touches.size(); ++i)
     of_noise[c.baseline.model.noise_group[i]].insert(noisy.group.in(static_cast<Eigen::Index>(i)) == 1);
   const bool parted = std::all_of(of_noise.begin(), of_noise.end(), [](const auto& g) { return g.second.size() == 1; });
-  return !parted && noisy.excess.chi2 / 2 - std::log(noisy.group.of_its_kind) > first.statistic;
+  return !parted && gain_of_own_noise(noisy.group, c) - std::log(noisy.group.of_its_kind) > first.statistic;
 }
 
 void part(const TouchGroup& group, Case& c) {
-  LinearModel& m = c.baseline.model;
-  for (std::size_t i = 0; i < m.noise_group.size(); ++i)
-    if (group.in(static_cast<Eigen::Index>(i)) == 1) m.noise_group[i] = m.noise_groups;
-  ++m.noise_groups;
-  for (std::size_t i = 1; i < m.follows.size(); ++i) m.follows[i] &= m.noise_group[i] == m.noise_group[i - 1];
+  part_noise(group, c.baseline.model, [](std::size_t touch) { return static_cast<Eigen::Index>(touch); });
   c.baseline.noise_names.push_back(group.touches);
   mask_outliers(c);
 }

@@ -227,10 +227,14 @@ std::optional<NoisyGroup> noisiest(const Case& c, const Residuals& r) {
   };
   for (TouchGroup& group : touch_groups(c)) {
     if (!parts(among_rows(c, group.in))) continue;
+    // One whose own noise explained more than any explanation has been chosen already, and by more than its scatter.
+    const auto& names = c.baseline.noise_names;
+    const double alarm =
+        std::find(names.begin(), names.end(), group.touches) == names.end() ? kNoiseAlarm : kAlarm / kLooks;
     const int looks = group.of_its_kind;
     NoisyGroup g = measured(std::move(group), 1);
     g.p = looks * chance_of_excess(g.excess.chi2);
-    if (g.excess.chi2 <= along_axes || g.p > kNoiseAlarm || g.ratio - 2 * g.u < kLeastRatio || (best && best->p <= g.p))
+    if (g.excess.chi2 <= along_axes || g.p > alarm || g.ratio - 2 * g.u < kLeastRatio || (best && best->p <= g.p))
       continue;
     best = std::move(g);
   }
