@@ -373,6 +373,7 @@ class Traps(harness.Case):
         self.assertNotIn("cte_error_ppm_per_K", expansion["parameters"])
         kelvin = expansion["parameters"]["temperature_error_K"]
         self.assertLess(abs(kelvin["value"] - 30 / 11.5), 3 * kelvin["u"])
+        self.assertIn("Kelvins are reckoned with 11.5 ppm/K: of what expands less there are as many more.", expansion["sentence"])
         again = json.loads(self.abbe("diagnose", second, "--known", "model.json", "--format", "json").stdout)
         self.assertEqual(again["verdict"], "no_mismatch")
 

@@ -63,6 +63,17 @@ std::string whose_direction(const Effect& effect) {
   return " Its direction is that of the probe body, which turns with the head: z is along the body, towards the head.";
 }
 
+std::string whose_coefficient(const Effect& effect, const std::vector<DiagnosedParameter>& told) {
+  const auto& all = effect.parameters;
+  const auto coefficient = std::find_if(all.begin(), all.end(), [](const EffectParameter& p) {
+    return p.unit == "ppm/K" && !p.linear && p.standard != 0;
+  });
+  const auto reckoned = [](const DiagnosedParameter& p) { return p.unit == "K"; };
+  if (coefficient == all.end() || std::none_of(told.begin(), told.end(), reckoned)) return "";
+  return fmt::format(" Kelvins are reckoned with {:g} ppm/K: of what expands less there are as many more.",
+                     coefficient->standard);
+}
+
 std::string what_does_nearly_the_same(const Effect& effect, const Variant& variant,
                                       const std::vector<DiagnosedParameter>& told) {
   constexpr double kNearly = 0.2;  // of the column

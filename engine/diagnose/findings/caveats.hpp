@@ -28,6 +28,9 @@ std::string much_like_it(const Effect&);
 /// In which frame the direction of an effect of the probe is told: those of other effects are in the machine's.
 std::string whose_direction(const Effect&);
 
+/// With which expansion coefficient a temperature was reckoned, where the effect has one and a temperature is told.
+std::string whose_coefficient(const Effect&, const std::vector<DiagnosedParameter>& told);
+
 /// What another parameter of the effect would have to be to do nearly the same to these touches as the only one that is
 /// told: at one temperature a wrong coefficient does what a wrong sensor does.
 std::string what_does_nearly_the_same(const Effect&, const Variant&, const std::vector<DiagnosedParameter>& told);

@@ -154,7 +154,8 @@ void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
     if (unproven && !doubts.any() && f.probability > kDoubted) e.sentence += unless_said(out.effects, kUnproven);
     for (const std::string& note :
          {whose_coordinates(c, effect), whose_direction(effect), whose_clock(c, effect),
-          whose_surroundings(c, effect, variant, e.parameters), warmer_in_one_placement(c, effect, variant)})
+          whose_coefficient(effect, e.parameters), whose_surroundings(c, effect, variant, e.parameters),
+          warmer_in_one_placement(c, effect, variant)})
       e.sentence += unless_said(out.effects, note);
     if (change.in_each_file)
       e.sentence +=

@@ -10,6 +10,7 @@
 
 #include "engine/diagnose/findings/belief.hpp"
 #include "engine/diagnose/findings/carried.hpp"
+#include "engine/diagnose/findings/caveats.hpp"
 #include "engine/diagnose/findings/locate.hpp"
 #include "engine/diagnose/findings/members.hpp"
 #include "engine/diagnose/values/value_patterns.hpp"
@@ -136,6 +137,7 @@ void tell_name(const ValueCase& c, const Closer& closer, const Finding& f, doubl
                            adequacy < kInadequate || !all_plausible(e.parameters) || only_untold || !only.empty() ||
                                !predicts_values_better(out.improvement));
   e.sentence = explanation_sentence(titles, e.parameters, "a file of values", {}, e.probability < kTold);
+  e.sentence += whose_coefficient(effect, e.parameters);
   if (untold != 0) {
     const std::string columns = fmt::format("{}", fmt::join(columns_of(untold), ", "));
     e.sentence += fmt::format(" Whether it is that depends on {}: a workpiece file tells them (--workpiece).", columns);
