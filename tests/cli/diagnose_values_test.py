@@ -304,6 +304,13 @@ class Values(harness.Case):
         self.assertNotEqual(verdict, "no_mismatch")
         self.assertNotIn("W0726", codes)
 
+    def test_one_artefact_has_one_reference_of_a_length(self):
+        blocks = self.changed(self.recorded(lengths=BOTH), lambda row: row | {"artefact": f"block {row['reference']}", "U": "0.0002"}, "blocks.csv")
+        codes = lambda change: [m["code"] for m in self.diagnosis(self.changed(blocks, change, "changed.csv"), )["messages"]]
+        self.assertEqual(codes(lambda row: row), [])
+        self.assertEqual(codes(lambda row: row | ({"reference": "100.004"} if "y1_S" in row["program"] else {})), ["W0739"])
+        self.assertIn("W0739", codes(lambda row: row | {"value": row["reference"], "reference": row["value"]}))
+
     def test_what_few_digits_hide_is_no_mismatch_and_not_said_to_be_seen(self):
         """In steps of 10 um a length of 5 um too much is written as 10 too much. Zeros at the end may be left out."""
         def rounded(long, text="500.00"):

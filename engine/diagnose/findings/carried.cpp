@@ -57,6 +57,11 @@ EffectSetting setting_from(const Effect& effect, const std::vector<DiagnosedPara
   return setting;
 }
 
+bool is_of_one_run(const EffectSetting& setting) {
+  return std::any_of(setting.parameters.begin(), setting.parameters.end(),
+                     [](const auto& p) { return p.second.word == "one run"; });
+}
+
 EffectSetting nearest_possible(const Effect& effect, EffectSetting setting) {
   for (const EffectParameter& p : effect.parameters) {
     const auto found = setting.parameters.find(std::string(p.name));
@@ -81,6 +86,8 @@ void count_from_its_file(const Effect& effect, double begun_s, EffectSetting& se
 
 /// What happened late in this recording would come late, or never, in a program.
 std::string when_in_file(const Effect& effect, const EffectSetting& setting, bool later_file) {
+  if (is_of_one_run(setting))
+    return " In the machine file it is in that run alone: a simulated program, which has no runs, gets none of it.";
   const double begin_s = begins_at_s(setting);
   const int setup = only_in_setup(setting);
   if (setup > 1)

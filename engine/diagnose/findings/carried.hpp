@@ -19,6 +19,9 @@ EffectSetting setting_at(const Effect&, const std::vector<double>& theta);
 /// With the values as figures say them.
 EffectSetting setting_from(const Effect&, const std::vector<DiagnosedParameter>& figures);
 
+/// Whether what a machine file has of it acts in one run of a recording, and so in no simulated program, which has none.
+bool is_of_one_run(const EffectSetting&);
+
 /// Sizes beside the catalogue's range, but within their uncertainty of it, at its end: a force of -0.01 ±
 /// 0.02 N may be none. Those that do not go together are made smaller by one factor until they do: less than their
 /// uncertainty, or they would not be plausible.

@@ -179,6 +179,13 @@ void tell_unexplained(const Case& c, const SearchResult& result, Diagnosis& out)
   EmpiricalModel model = empirical_model(c, result);
   if (model.follows) out.unexplained->model_follows = name(*model.follows);
   if (!model.settings.empty()) out.unexplained->model = model.settings.front().name;
+  const auto over_time = [](const EffectSetting& s) {
+    const auto along = s.parameters.find("along");
+    return along != s.parameters.end() && along->second.word == "time";
+  };
+  if (std::any_of(model.settings.begin(), model.settings.end(), over_time))
+    out.unexplained->sentence +=
+        " In the machine file it goes on from the start of a program as it did from that of this recording: how the machine is by now it does not say.";
   for (EffectSetting& setting : model.settings) out.model_effects.push_back(std::move(setting));
 }
 
@@ -192,7 +199,9 @@ std::string what_repeats_say(const NoiseFinding& n, bool sure) {
   if (!n.certain)
     return repeated
         ? " Repeats of the same touches differ, so that it belongs to no place: touch one again and again for some minutes, and see when it changes."
-        : " Repeats of the same touches would tell whether it is noise, or a pattern too fine for this recording.";
+        : fmt::format(
+              " Repeats of the same touches{} would tell whether it is noise, or a pattern too fine for this recording.",
+              n.factor == Factor::run ? " within that run" : "");
   return sure
       ? ""
       : fmt::format(" It may still be chance: {}repeats of the same touches would tell.", repeated ? "more " : "");

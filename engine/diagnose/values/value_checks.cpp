@@ -65,6 +65,31 @@ void doubt_calibrations(const ValueCase& c, std::vector<Diagnostic>& messages) {
       "U is the expanded uncertainty (k = 2) in mm or degrees, as the value is; as it stands, only errors larger than U show"));
 }
 
+void doubt_references(const ValueCase& c, std::vector<Diagnostic>& messages) {
+  constexpr double kOneLength = 0.1;  // mm or degrees: what lies further apart is another length of the artefact
+  std::map<std::pair<std::string, std::string>, std::vector<const ValueRow*>> of;
+  for (const ValueRow& row : c.recording->rows)
+    if (row.reference && !row.artefact.empty())
+      of[{row.artefact, abbe::labels_of(row.characteristic).back()}].push_back(&row);
+  for (auto& [which, rows] : of) {
+    std::stable_sort(rows.begin(), rows.end(),
+                     [](const ValueRow* a, const ValueRow* b) { return *a->reference < *b->reference; });
+    for (std::size_t k = 1; k < rows.size(); ++k) {
+      const ValueRow &a = *rows[k - 1], &b = *rows[k];
+      const double apart = *b.reference - *a.reference;
+      if (apart <= std::max({a.expanded_uncertainty, b.expanded_uncertainty, a.last_digit, b.last_digit}) ||
+          apart >= kOneLength)
+        continue;
+      messages.push_back(diagnostic_at(
+          c.recording->source, b.span, Code::W0739,
+          fmt::format("{} of '{}' has the reference {:.9g} here and {:.9g} elsewhere: they lie further apart than U",
+                      which.second, which.first, *b.reference, *a.reference),
+          "correct them; give each of several such lengths a word of its own under artefact. Are value and reference exchanged?"));
+      return;
+    }
+  }
+}
+
 void refuse_copied_values(const ValueCase& c) {
   constexpr double kNearlyAllOfRun = 0.9, kLogHardly = -14;
   std::map<int, std::map<Value, Eigen::Index>> runs;

@@ -11,6 +11,10 @@ namespace abbe::diagnose {
 /// Calibrations that say less of most values than any machine of the specification would.
 void doubt_calibrations(const ValueCase&, std::vector<Diagnostic>& messages);
 
+/// References of one label and artefact that lie further apart than their calibration and their digits allow, and less than
+/// one length does from another (W0739): a slip, or values and references exchanged.
+void doubt_references(const ValueCase&, std::vector<Diagnostic>& messages);
+
 /// Throws UserError (E0713): runs of which nine tenths of the smaller stand in another one, value for value to the last digit,
 /// where so many would not repeat by themselves: a value of a machine that repeats far better than the simulated ones does
 /// with the chance of its step over their scatter.

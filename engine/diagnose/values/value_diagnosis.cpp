@@ -121,6 +121,7 @@ Diagnosis diagnose_values(const ValueRecording& recording, const std::vector<Val
   Diagnosis out;
   if (options.design_only) out.judged = Judged::plan;
   doubt_calibrations(c, out.messages);
+  doubt_references(c, out.messages);
   out.cannot_judge = cannot_judge(c.search->explanations());
   begins(options.progress, "what these values could detect");
   const std::vector<double> in_order = statistics_of(*c.search, c.judges.judged);

@@ -205,9 +205,16 @@ InWords over_runs(const ValueCase& c, const Explanation& e, const Variant& varia
     out.what =
         fmt::format("from {} on values are others than before, {} by {}", told, how, with_sign(amount[*out.run]));
   } else if (e.shape.starts_with(kEachRun)) {
+    constexpr std::size_t kMost = 8;
+    const auto in_run = [&](const auto& of) { return fmt::format("{} in {}", with_sign(of.second), called(of.first)); };
     std::vector<std::string> each;
-    for (const auto& [run, by] : amount) each.push_back(fmt::format("{} in {}", with_sign(by), called(run)));
-    out.what = fmt::format("values change from run to run, {} by {}", how, fmt::join(each, ", "));
+    for (const auto& of : amount) each.push_back(in_run(of));
+    const auto [least, most] = std::minmax_element(amount.begin(), amount.end(),
+                                                   [](const auto& a, const auto& b) { return a.second < b.second; });
+    out.what =
+        fmt::format("values change from run to run, {} by {}", how,
+                    each.size() > kMost ? fmt::format("what lies between {} and {}", in_run(*least), in_run(*most))
+                                        : fmt::format("{}", fmt::join(each, ", ")));
   } else {
     out.what = fmt::format("values change from run to run, {} by {} from the first to the last", how,
                            with_sign(amount.rbegin()->second - amount.begin()->second));

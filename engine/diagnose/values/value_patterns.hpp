@@ -1,6 +1,5 @@
-// OTHER, of recorded values: what the catalogue does not have. A characteristic that strays by itself or a reference that
-// does in all places, a run that differs
-// from the others, what changes from run to run, single values that stray, and a machine with larger errors than specified.
+// OTHER, of recorded values: what the catalogue does not have. A characteristic that strays by itself, a reference that does
+// in all places, what differs between runs, single values that stray, and a machine with larger errors than specified.
 #pragma once
 
 #include <optional>
@@ -14,7 +13,6 @@ namespace abbe::diagnose {
 inline constexpr const char* kOneCharacteristic = "one characteristic";
 /// That one does of one reference, and of one artefact where rows say which, alike in all places where it was measured.
 inline constexpr const char* kOneReference = "one reference";
-
 /// That the values of one run scatter, each by itself.
 inline constexpr const char* kScatterOfRun = "scatter of one run";
 
@@ -25,7 +23,7 @@ bool is_located(const Explanation&);
 void add_value_patterns(ValueCase&);
 
 /// Whether a pattern is over runs: all lengths of one differ from those of the others, or change from run to run; all by the
-/// same, or each in proportion to itself.
+/// same, or each in proportion to itself; or those of one run scatter.
 bool is_over_runs(const Explanation&);
 
 /// A pattern over runs, and what it predicts of each value, um or urad, in words: "the values of run 3 stray from those of the

@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "engine/diagnose/findings/carried.hpp"
 #include "engine/diagnose/words.hpp"
 #include "engine/effects/noise/noise.hpp"
 #include "engine/math/units.hpp"
@@ -355,7 +356,7 @@ std::vector<std::string> further_steps(const Diagnosis& d) {
         "No machine file can carry this pattern: it belongs to the part or the occasion, depends on more than one thing, or is too rough for a curve or a map.");
   if (d.model_effects.empty() && !d.superseded.empty())
     out.push_back("What is gone is in the machine file still: --model-out writes it without.");
-  if (!d.model_effects.empty()) {
+  if (!std::all_of(d.model_effects.begin(), d.model_effects.end(), diagnose::is_of_one_run)) {
     const bool open =
         std::any_of(d.effects.begin(), d.effects.end(), [](const DiagnosedEffect& e) { return e.members.size() > 1; });
     out.push_back(fmt::format(
