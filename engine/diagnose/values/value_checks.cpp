@@ -66,7 +66,8 @@ void doubt_calibrations(const ValueCase& c, std::vector<Diagnostic>& messages) {
 }
 
 void doubt_references(const ValueCase& c, std::vector<Diagnostic>& messages) {
-  constexpr double kOneLength = 0.1;  // mm or degrees: what lies further apart is another length of the artefact
+  // mm or degrees: what lies further apart is another length of the artefact, and what is nearer the same
+  constexpr double kOneLength = 0.1, kRounding = 1e-6;
   std::map<std::pair<std::string, std::string>, std::vector<const ValueRow*>> of;
   for (const ValueRow& row : c.recording->rows)
     if (row.reference && !row.artefact.empty())
@@ -77,8 +78,7 @@ void doubt_references(const ValueCase& c, std::vector<Diagnostic>& messages) {
     for (std::size_t k = 1; k < rows.size(); ++k) {
       const ValueRow &a = *rows[k - 1], &b = *rows[k];
       const double apart = *b.reference - *a.reference;
-      if (apart <= std::max({a.expanded_uncertainty, b.expanded_uncertainty, a.last_digit, b.last_digit}) ||
-          apart >= kOneLength)
+      if (apart <= std::max({a.expanded_uncertainty, b.expanded_uncertainty, kRounding}) || apart >= kOneLength)
         continue;
       messages.push_back(diagnostic_at(
           c.recording->source, b.span, Code::W0739,

@@ -11,7 +11,7 @@ namespace abbe::diagnose {
 /// Calibrations that say less of most values than any machine of the specification would.
 void doubt_calibrations(const ValueCase&, std::vector<Diagnostic>& messages);
 
-/// References of one label and artefact that lie further apart than their calibration and their digits allow, and less than
+/// References of one label and artefact that lie further apart than their calibration allows, and less than
 /// one length does from another (W0739): a slip, or values and references exchanged.
 void doubt_references(const ValueCase&, std::vector<Diagnostic>& messages);
 
