@@ -51,6 +51,7 @@ struct WrittenColumn {
 double interpolated_step_mm(const std::vector<double>& lengths_mm) {
   constexpr double kLeast_mm = 1e-4, kToNanometres_mm = 0.55e-6, kFiner_mm = 0.55e-7, kWhole = 1e-3;
   constexpr int kMostParts = 50;
+  constexpr std::size_t kEnough = 24;  // what fewer lengths and differences have in common may be chance
   const bool to_nanometres = std::all_of(lengths_mm.begin(), lengths_mm.end(), [](double length) {
     return std::abs(1e6 * length - std::round(1e6 * length)) < kWhole;
   });
@@ -61,7 +62,8 @@ double interpolated_step_mm(const std::vector<double>& lengths_mm) {
   for (std::size_t i = multiples.size(); i-- > 1;) multiples.push_back(multiples[i] - multiples[i - 1]);
   std::sort(multiples.begin(), multiples.end());
   multiples.erase(multiples.begin(), std::lower_bound(multiples.begin(), multiples.end(), kLeast_mm));
-  double step = multiples.empty() ? 0 : multiples.front(), error = written;
+  if (multiples.size() < kEnough) return 0;
+  double step = multiples.front(), error = written;
   for (const double length : multiples) {
     int parts = 1;  // of the step so far, each of which may be it
     const auto off = [&] {

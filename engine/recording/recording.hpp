@@ -67,7 +67,7 @@ inline const std::string& file_of(const Recording& r, const RecordingRow& row, c
 std::string line_of(const Recording&, const RecordingRow&);
 
 /// The step of which all these lengths are multiples: their greatest common divisor, down to 1 nm, or where that is less than
-/// 10 nm a step of any size from 0.1 um on, if there is one; 0 without any length. mm.
+/// 10 nm a step of any size from 0.1 um on, if a dozen tell that there is one; 0 without any length. mm.
 double common_step_mm(const std::vector<double>& lengths_mm);
 /// Of all recorded positions.
 double common_step_mm(const Recording&);
