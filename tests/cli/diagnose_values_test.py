@@ -58,6 +58,7 @@ class Values(harness.Case):
         far = self.changed(values, lambda row: row | {"value": repr(float(row["value"]) + 0.1)}, "far.csv")
         self.assertRegex(self.abbe("diagnose", far, "--report", "far.html").stdout, r"LEN .* <0\.00\d +mm")
         self.assertRegex((self.folder / "far.html").read_text(), r"&lt;0\.00\d")
+        self.assertIn("; p &lt; 0.0001</p>", (self.folder / "far.html").read_text())
 
     def test_what_the_machine_file_has_of_an_effect_is_not_written_beside_it(self):
         """Scales of 20 um/m in the file, of 63 more in the recording: the file gets one of both together."""
@@ -306,7 +307,7 @@ class Values(harness.Case):
 
     def test_one_artefact_has_one_reference_of_a_length(self):
         blocks = self.changed(self.recorded(lengths=BOTH), lambda row: row | {"artefact": f"block {row['reference']}", "U": "0.0002"}, "blocks.csv")
-        codes = lambda change: [m["code"] for m in self.diagnosis(self.changed(blocks, change, "changed.csv"), )["messages"]]
+        codes = lambda change: [m["code"] for m in self.diagnosis(self.changed(blocks, change, "changed.csv"))["messages"]]
         self.assertEqual(codes(lambda row: row), [])
         self.assertEqual(codes(lambda row: row | ({"reference": "100.004"} if "y1_S" in row["program"] else {})), ["W0739"])
         self.assertIn("W0739", codes(lambda row: row | {"value": row["reference"], "reference": row["value"]}))

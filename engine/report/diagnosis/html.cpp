@@ -184,7 +184,7 @@ std::string messages(const Diagnosis& d) {
 std::string diagnosis_html(const Diagnosis& d, const std::string& recording, const std::string& machine) {
   std::string body =
       fmt::format("<h1>{}</h1>\n<p class=\"note\">Recording {}; machine {}{}</p>\n", title(d), escaped(recording),
-                  escaped(machine), d.judged == Judged::yes ? "; " + p_in_words(d.p_value) : "");
+                  escaped(machine), d.judged == Judged::yes ? "; " + escaped(p_in_words(d.p_value)) : "");
   for (const std::string& sentence : diagnosis_sentences(d)) body += html_paragraphs(sentence);
   return html_page("Diagnosis of " + recording,
                    body + explanations(d) + improvement(d) + values(d) + residual_plots(d) + next_steps(d) +
